@@ -1,0 +1,20 @@
+# Flags that every target of ours has, and the one way to add a library of a room.
+
+# Products are never contracted to fused multiply-adds: pictures and figures must not depend on the compiler's mood.
+set(HALFFRAME_FLAGS -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
+
+# halfframe_library(ROOM SOURCES ... PUBLIC ... PRIVATE ...): a static library halfframe_ROOM, alias halfframe::ROOM.
+function(halfframe_library room)
+  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  add_library(halfframe_${room} STATIC ${ARG_SOURCES})
+  add_library(halfframe::${room} ALIAS halfframe_${room})
+  set_target_properties(halfframe_${room} PROPERTIES EXPORT_NAME ${room})
+  target_compile_features(halfframe_${room} PUBLIC cxx_std_20)
+  target_compile_options(halfframe_${room} PRIVATE ${HALFFRAME_FLAGS})
+  target_include_directories(halfframe_${room} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/halfframe>)
+  target_include_directories(halfframe_${room} SYSTEM PRIVATE ${GLM_INCLUDE_DIR} ${GLES3_INCLUDE_DIR})
+  target_link_libraries(halfframe_${room} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+endfunction()
+

@@ -1,0 +1,30 @@
+// The list itself, in the order the plan asks. Only this file names the effects: a build without one of them (see
+// tests/effects/off_is_free) compiles this file with HALFFRAME_WITHOUT_<EFFECT> and links nothing of it.
+#include "engine/effects.h"
+
+#include <array>
+
+namespace halfframe {
+
+namespace {
+
+constexpr auto kEffects = std::to_array<const EffectCard*>({
+#ifndef HALFFRAME_WITHOUT_DEPTH_PREPASS
+    &kDepthPrepass,
+#endif
+#ifndef HALFFRAME_WITHOUT_SURFACE
+    &kSurface,
+#endif
+#ifndef HALFFRAME_WITHOUT_SKY
+    &kSky,
+#endif
+#ifndef HALFFRAME_WITHOUT_TONE_MAP
+    &kToneMap,
+#endif
+});
+
+}  // namespace
+
+std::span<const EffectCard* const> all_effects() { return kEffects; }
+
+}  // namespace halfframe

@@ -1,0 +1,13 @@
+// The one explicit list of effects. Nothing registers itself: an effect that is not here does not exist.
+#pragma once
+
+#include "engine/frame/effect_card.h"
+
+namespace halfframe {
+
+extern const EffectCard kDepthPrepass;
+extern const EffectCard kSurface;
+extern const EffectCard kSky;
+extern const EffectCard kToneMap;
+
+}  // namespace halfframe

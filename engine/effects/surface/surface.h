@@ -1,0 +1,17 @@
+// START HERE: surface shades everything that has a mesh: direct light, constant ambient, emission.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "engine/frame/effect_card.h"
+
+namespace halfframe {
+
+extern const EffectCard kSurface;
+
+/// Lights that reach `box` (world, [m]), strongest first, at most `limit`; suns are not among them.
+/// `left_out` counts those that reach it and had no place.
+[[nodiscard]] std::vector<int> lights_reaching(const Scene& scene, const Box& box, int limit, int& left_out);
+
+}  // namespace halfframe

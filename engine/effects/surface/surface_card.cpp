@@ -1,0 +1,95 @@
+// The card of surface: demand, passes, tiers; and which lights reach an object.
+#include "engine/effects/surface/surface.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "engine/effects/surface/surface_work.h"
+#include "engine/frame/frame_plan.h"
+#include "engine/frame/renderer.h"
+
+namespace halfframe {
+
+namespace {
+
+constexpr std::string_view kDefines =
+    "BASE_COLOR_MAP METALLIC_ROUGHNESS_MAP NORMAL_MAP EMISSIVE_MAP VERTEX_COLOR ALPHA_MASK ALPHA_BLEND DOUBLE_SIDED SUN "
+    "LOCAL_LIGHTS UNLIT POINTS SCENE_COLOR_PACKED";
+constexpr std::array kShaders = {ShaderVariant{"surface/surface.vert", "surface/surface.frag", kDefines}};
+
+bool is_blended(const Scene& scene, const Surface& surface) {
+    return scene.materials[static_cast<std::size_t>(surface.material)].alpha_mode == AlphaMode::blend;
+}
+
+Demand called_for(const PlanContext& context) {
+    const std::size_t count = context.scene.surfaces.size();
+    if (count == 0) return {false, "the scene has no surfaces"};
+    const auto blended = std::ranges::count_if(context.scene.surfaces,
+                                               [&](const Surface& surface) { return is_blended(context.scene, surface); });
+    return {true, fmt::format("the scene has {} surface{}, {} of them translucent", count, count == 1 ? "" : "s", blended)};
+}
+
+void add_passes(const PlanContext& context, FramePlan& plan) {
+    const auto add = [&](const char* pass_name, int phase, PassOrder order) {
+        Pass pass;
+        pass.name = pass_name;
+        pass.effect = "surface";
+        pass.phase = phase;
+        pass.order = order;
+        pass.color = plan.add_scene_color();
+        pass.depth = plan.add_scene_depth();
+        pass.writes_depth = phase == kOpaquePhase;
+        plan.passes.push_back(pass);
+    };
+    const auto blended = [&](const Surface& surface) { return is_blended(context.scene, surface); };
+    if (!std::ranges::all_of(context.scene.surfaces, blended)) add("surface_opaque", kOpaquePhase, PassOrder::opaque);
+    if (std::ranges::any_of(context.scene.surfaces, blended)) add("surface_transparent", kTransparentPhase, PassOrder::transparent);
+}
+
+std::unique_ptr<EffectWork> prepare(Renderer& renderer) { return std::make_unique<SurfaceWork>(renderer); }
+
+float strongest_channel(const glm::vec3& color) { return std::max({color.r, color.g, color.b}); }
+
+}  // namespace
+
+std::vector<int> lights_reaching(const Scene& scene, const Box& box, int limit, int& left_out) {
+    struct Candidate {
+        int light;
+        float strength;
+    };
+    std::vector<Candidate> candidates;
+    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+        const Light& light = scene.lights[i];
+        if (light.kind == LightKind::sun) continue;
+        const glm::vec3 nearest = glm::clamp(light.position, box.low, box.high);
+        const float distance_m = glm::distance(nearest, light.position);
+        if (distance_m >= light.range_m) continue;
+        candidates.push_back({static_cast<int>(i), strongest_channel(light.color) / std::max(distance_m * distance_m, 0.01f)});
+    }
+    std::ranges::stable_sort(candidates, std::greater<>{}, &Candidate::strength);
+    left_out = std::max(static_cast<int>(candidates.size()) - limit, 0);
+    if (left_out > 0) candidates.resize(static_cast<std::size_t>(limit));
+    std::vector<int> lights;
+    for (const Candidate& candidate : candidates) lights.push_back(candidate.light);
+    return lights;
+}
+
+const EffectCard kSurface{
+    .name = "surface",
+    .purpose = "Shades every mesh: Blinn microfacet direct light from a sun, points and spots, constant ambient, emission.",
+    .sources = "N. Hoffman, SIGGRAPH 2010 course, Crafting Physically Motivated Shading Models; S. Lagarde and L. Harduin, GDC Europe 2013",
+    .kind = EffectKind::pass,
+    .called_for_by = "Scene::surfaces",
+    .budget_row = "surface",
+    .tiers = {TierCard{kShaders, "scene_color, depth",
+                       "the sun by pixel with its highlight; local lights by vertex and diffuse only; mediump where the device has no highp"},
+              TierCard{kShaders, "scene_color, depth", "every light by pixel with highlights to a power of 2048"},
+              TierCard{kShaders, "scene_color, depth", "as console, with the lobe as written, in highp"}},
+    .called_for = called_for,
+    .add_passes = add_passes,
+    .insertions = nullptr,
+    .prepare = prepare,
+};
+
+}  // namespace halfframe

@@ -1,0 +1,237 @@
+// Prepares and draws surfaces. The CPU multiplies lights by the exposure, subtracts the eye in double, and sorts.
+#include "engine/effects/surface/surface_work.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "engine/effects/surface/surface.h"
+#include "engine/frame/camera_space.h"
+#include "engine/frame/frame_plan.h"
+
+namespace halfframe {
+
+namespace {
+
+/// Texture units by sampler name: the same in every variant, so that neighbours in the list share bindings.
+enum Unit : int { kBaseColorUnit = 0, kMetallicRoughnessUnit = 1, kNormalUnit = 2, kEmissiveUnit = 3 };
+
+void set(gl::EntryPoints& gl, int location, const glm::vec4& value) {
+    if (location >= 0) gl.Uniform4fv(location, 1, &value.x);
+}
+
+const Material& material_of(const Renderer& renderer, const Surface& surface) {
+    return renderer.scene().materials[static_cast<std::size_t>(surface.material)];
+}
+
+}  // namespace
+
+std::vector<std::string_view> SurfaceWork::defines_of(const Renderer& renderer, const Surface& surface, bool lit_locally) const {
+    const Material& material = material_of(renderer, surface);
+    const DrawMesh& mesh = renderer.mesh(surface.mesh);
+    const bool lit = mesh.has_normals;
+    std::vector<std::string_view> defines;
+    if (material.base_color_texture) defines.push_back("BASE_COLOR_MAP");
+    if (lit && material.metallic_roughness_texture) defines.push_back("METALLIC_ROUGHNESS_MAP");
+    if (lit && material.normal_texture && mesh.has_tangents) defines.push_back("NORMAL_MAP");
+    if (material.emissive_texture) defines.push_back("EMISSIVE_MAP");
+    if (mesh.has_colors) defines.push_back("VERTEX_COLOR");
+    if (material.alpha_mode == AlphaMode::mask) defines.push_back("ALPHA_MASK");
+    if (material.alpha_mode == AlphaMode::blend) defines.push_back("ALPHA_BLEND");
+    if (lit && material.double_sided) defines.push_back("DOUBLE_SIDED");
+    if (lit && sun_) defines.push_back("SUN");
+    if (lit && lit_locally) defines.push_back("LOCAL_LIGHTS");
+    if (!lit) defines.push_back("UNLIT");  // glTF 2.0, 3.7.2.1: points and lines without normals are not lit
+    if (mesh.mode == GL_POINTS) defines.push_back("POINTS");
+    if (renderer.plan().storage == gl::PixelFormat::rgb10_a2) defines.push_back("SCENE_COLOR_PACKED");
+    return defines;
+}
+
+int SurfaceWork::variant_of(Renderer& renderer, const std::vector<std::string_view>& defines) {
+    gl::Program& program = renderer.program(kSurface, 0, defines);
+    for (std::size_t i = 0; i < variants_.size(); ++i) {
+        if (variants_[i].program == &program) return static_cast<int>(i);
+    }
+    Variant variant;
+    variant.program = &program;
+    variant.clip_from_local = program.uniform("clip_from_local");
+    variant.eye_from_local = program.uniform_if_used("eye_from_local");
+    variant.normal_from_local = program.uniform_if_used("normal_from_local");
+    variant.toward_eye = program.uniform_if_used("toward_eye");
+    variant.base_color = program.uniform_if_used("base_color");
+    variant.emissive = program.uniform_if_used("emissive");
+    variant.factors = program.uniform_if_used("factors");
+    variant.ambient = program.uniform_if_used("ambient");
+    variant.sun_direction = program.uniform_if_used("sun_direction");
+    variant.sun_color = program.uniform_if_used("sun_color");
+    variant.light_position = program.uniform_if_used("light_position");
+    variant.light_color = program.uniform_if_used("light_color");
+    variant.light_direction = program.uniform_if_used("light_direction");
+    variant.light_count = program.uniform_if_used("light_count");
+    renderer.use(program);
+    for (const auto& [sampler, unit] : {std::pair{"base_color_map", kBaseColorUnit}, std::pair{"metallic_roughness_map", kMetallicRoughnessUnit},
+                                        std::pair{"normal_map", kNormalUnit}, std::pair{"emissive_map", kEmissiveUnit}}) {
+        if (const int location = program.uniform_if_used(sampler); location >= 0) renderer.gl().Uniform1i(location, unit);
+    }
+    program.expect_all_uniforms_claimed();
+    variants_.push_back(variant);
+    return static_cast<int>(variants_.size()) - 1;
+}
+
+void SurfaceWork::add_draw(Renderer& renderer, int index) {
+    const Surface& surface = renderer.scene().surfaces[static_cast<std::size_t>(index)];
+    const Material& material = material_of(renderer, surface);
+    Draw draw{.variant = 0, .surface = index, .material = surface.material, .double_sided = material.double_sided, .textures = {}, .lights = {}};
+    int left_out = 0;
+    draw.lights = lights_reaching(renderer.scene(), world_box(renderer.mesh(surface.mesh).box, surface.world_from_local),
+                                  SURFACE_LIGHT_LIMIT, left_out);
+    if (left_out > 0) {
+        renderer.add_notice(fmt::format("{} lights reach {} and {} are drawn: the {} weakest are left out",
+                                        left_out + SURFACE_LIGHT_LIMIT, surface.name, SURFACE_LIGHT_LIMIT, left_out));
+    }
+    const auto defines = defines_of(renderer, surface, !draw.lights.empty());
+    draw.variant = variant_of(renderer, defines);
+    const bool decoded = renderer.tier_of("surface") != Tier::low && renderer.caps().srgb_textures;
+    const auto uses = [&](std::string_view define) { return std::ranges::find(defines, define) != defines.end(); };
+    if (uses("BASE_COLOR_MAP")) draw.textures.push_back({kBaseColorUnit, renderer.texture(material.base_color_texture, decoded)});
+    if (uses("METALLIC_ROUGHNESS_MAP")) draw.textures.push_back({kMetallicRoughnessUnit, renderer.texture(material.metallic_roughness_texture, false)});
+    if (uses("NORMAL_MAP")) draw.textures.push_back({kNormalUnit, renderer.texture(material.normal_texture, false)});
+    if (uses("EMISSIVE_MAP")) draw.textures.push_back({kEmissiveUnit, renderer.texture(material.emissive_texture, decoded)});
+    (material.alpha_mode == AlphaMode::blend ? transparent_ : opaque_).push_back(std::move(draw));
+}
+
+SurfaceWork::SurfaceWork(Renderer& renderer) {
+    const Scene& scene = renderer.scene();
+    int suns = 0;
+    for (const Light& light : scene.lights) {
+        if (light.kind != LightKind::sun) continue;
+        if (suns++ == 0) sun_ = &light;
+    }
+    if (suns > 1) renderer.add_notice(fmt::format("the scene has {} suns and one is drawn: {}", suns, sun_->name));
+    for (std::size_t i = 0; i < scene.surfaces.size(); ++i) add_draw(renderer, static_cast<int>(i));
+    // Fewest changes of program, then of material, then of culling; the scene's order decides the rest, so that every run is the same.
+    std::ranges::stable_sort(opaque_, [](const Draw& a, const Draw& b) {
+        return std::tie(a.variant, a.material) < std::tie(b.variant, b.material);
+    });
+    order_.resize(transparent_.size());
+}
+
+void SurfaceWork::set_variant(Renderer& renderer, const View& view, const Variant& variant) {
+    gl::EntryPoints& gl = renderer.gl();
+    renderer.use(*variant.program);
+    set(gl, variant.ambient, glm::vec4(renderer.scene().ambient * view.exposure, 0.0f));
+    if (sun_) {
+        set(gl, variant.sun_direction, glm::vec4(-glm::normalize(sun_->direction), 0.0f));
+        set(gl, variant.sun_color, glm::vec4(sun_->color * view.exposure, 0.0f));
+    }
+}
+
+void SurfaceWork::set_material(Renderer& renderer, const View& view, const Variant& variant, const Draw& draw) {
+    gl::EntryPoints& gl = renderer.gl();
+    const Material& material = renderer.scene().materials[static_cast<std::size_t>(draw.material)];
+    const bool unlit = variant.factors < 0;
+    const float base_exposure = unlit ? view.exposure : 1.0f;  // an unlit colour is a radiance, a lit one a reflectance
+    set(gl, variant.base_color, glm::vec4(glm::vec3(material.base_color) * base_exposure, material.base_color.a));
+    set(gl, variant.emissive, glm::vec4(material.emissive * view.exposure, material.alpha_cutoff));
+    set(gl, variant.factors, glm::vec4(material.metallic, material.roughness, material.normal_scale, 0.0f));
+    for (const TextureBinding& binding : draw.textures) renderer.bind_texture(binding.unit, binding.texture);
+    renderer.set_cull(!draw.double_sided);
+}
+
+void SurfaceWork::set_matrices(Renderer& renderer, const View& view, const Variant& variant, const Draw& draw, const glm::mat4& clip) {
+    gl::EntryPoints& gl = renderer.gl();
+    const Surface& surface = renderer.scene().surfaces[static_cast<std::size_t>(draw.surface)];
+    const glm::mat4 eye = eye_from_local(view, surface.world_from_local);
+    const auto set_matrix = [&](int location, const glm::mat4& matrix) {
+        if (location >= 0) gl.UniformMatrix4fv(location, 1, GL_FALSE, &matrix[0][0]);
+    };
+    set_matrix(variant.clip_from_local, clip);
+    set_matrix(variant.eye_from_local, eye);
+    if (variant.normal_from_local >= 0) set_matrix(variant.normal_from_local, normal_from_local(surface.world_from_local));
+    if (variant.toward_eye < 0) return;
+    // Without fragment highp, vertex_to_eye is scaled so that the farthest corner is 64 long: squares stay under 16384 (the
+    // least mediump must reach) and above half's smallest normal down to 1/8000 of that distance. Directions do not change.
+    float scale = 1.0f;
+    if (!renderer.caps().fragment_highp) {
+        const Box box = world_box(renderer.mesh(surface.mesh).box, eye);
+        const float farthest = glm::length(glm::max(glm::abs(box.low), glm::abs(box.high)));
+        scale = 64.0f / std::max(farthest, 1e-3f);
+    }
+    const glm::vec3 toward = view.orthographic ? glm::vec3(view.view_from_world[0].z, view.view_from_world[1].z, view.view_from_world[2].z)
+                                               : glm::vec3(0.0f);
+    set(gl, variant.toward_eye, glm::vec4(toward, view.orthographic ? 1.0f : scale));
+}
+
+void SurfaceWork::set_lights(Renderer& renderer, const View& view, const Variant& variant, const Draw& draw) {
+    if (variant.light_position < 0) return;
+    std::array<glm::vec4, SURFACE_LIGHT_LIMIT> position{}, color{}, direction{};
+    for (std::size_t i = 0; i < draw.lights.size(); ++i) {
+        const Light& light = renderer.scene().lights[static_cast<std::size_t>(draw.lights[i])];
+        const glm::dvec3 from_eye = glm::dvec3(light.position) - glm::dvec3(view.eye);
+        position[i] = glm::vec4(glm::vec3(from_eye), 1.0f / (light.range_m * light.range_m));
+        float cone_scale = 0.0f;  // 0 says point
+        if (light.kind == LightKind::spot) {
+            const float cos_outer = std::cos(light.outer_cone_rad);
+            cone_scale = 1.0f / std::max(std::cos(light.inner_cone_rad) - cos_outer, 1e-3f);
+            direction[i] = glm::vec4(glm::normalize(light.direction), cos_outer);
+        }
+        color[i] = glm::vec4(light.color * view.exposure, cone_scale);
+    }
+    const auto count = static_cast<GLsizei>(draw.lights.size());
+    gl::EntryPoints& gl = renderer.gl();
+    gl.Uniform4fv(variant.light_position, count, &position[0].x);
+    gl.Uniform4fv(variant.light_color, count, &color[0].x);
+    gl.Uniform4fv(variant.light_direction, count, &direction[0].x);
+    set(gl, variant.light_count, glm::vec4(static_cast<float>(count), 0.0f, 0.0f, 0.0f));
+}
+
+void SurfaceWork::draw_one(Renderer& renderer, const View& view, const Draw& draw) {
+    const Surface& surface = renderer.scene().surfaces[static_cast<std::size_t>(draw.surface)];
+    const DrawMesh& mesh = renderer.mesh(surface.mesh);
+    const glm::mat4 clip = clip_from_local(view, surface.world_from_local);
+    if (outside_view(mesh.box, clip)) return;
+    const Variant& variant = variants_[static_cast<std::size_t>(draw.variant)];
+    if (current_variant_ != draw.variant) {
+        set_variant(renderer, view, variant);
+        current_variant_ = draw.variant;
+        current_material_ = -1;
+    }
+    if (current_material_ != draw.material) {
+        set_material(renderer, view, variant, draw);
+        current_material_ = draw.material;
+    }
+    set_matrices(renderer, view, variant, draw, clip);
+    set_lights(renderer, view, variant, draw);
+    renderer.draw_mesh(mesh);
+}
+
+void SurfaceWork::sort_by_distance(const Renderer& renderer, const View& view) {
+    for (std::size_t i = 0; i < transparent_.size(); ++i) {
+        const Surface& surface = renderer.scene().surfaces[static_cast<std::size_t>(transparent_[i].surface)];
+        const Box box = world_box(renderer.mesh(surface.mesh).box, surface.world_from_local);
+        const glm::vec3 from_eye = (box.low + box.high) * 0.5f - view.eye;
+        order_[i] = {static_cast<double>(glm::dot(from_eye, from_eye)), static_cast<int>(i)};
+    }
+    std::ranges::sort(order_, [](const Order& a, const Order& b) {
+        return a.distance != b.distance ? a.distance > b.distance : a.draw < b.draw;  // equal distances never swap
+    });
+}
+
+void SurfaceWork::draw(Renderer& renderer, const View& view, int phase) {
+    current_variant_ = -1;
+    current_material_ = -1;
+    renderer.set_color_mask(true);
+    if (phase == kOpaquePhase) {
+        renderer.set_blend(false);
+        renderer.set_depth(true, true, GL_LEQUAL);
+        for (const Draw& draw : opaque_) draw_one(renderer, view, draw);
+        return;
+    }
+    renderer.set_blend(true);
+    renderer.set_depth(true, false, GL_LEQUAL);
+    sort_by_distance(renderer, view);
+    for (const Order& order : order_) draw_one(renderer, view, transparent_[static_cast<std::size_t>(order.draw)]);
+}
+
+}  // namespace halfframe

@@ -1,0 +1,67 @@
+// Draws the surfaces of a scene: one list of draws made while preparing, walked twice a frame.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "engine/frame/effect_card.h"
+#include "engine/frame/renderer.h"
+#include "shaders_es/surface/surface_limits.h"
+
+namespace halfframe {
+
+inline constexpr int kOpaquePhase = 0;
+inline constexpr int kTransparentPhase = 1;
+
+class SurfaceWork final : public EffectWork {
+public:
+    explicit SurfaceWork(Renderer& renderer);
+    void draw(Renderer& renderer, const View& view, int phase) override;
+
+private:
+    /// A program and where its uniforms are; -1: this variant does not use it.
+    struct Variant {
+        gl::Program* program = nullptr;
+        int clip_from_local = -1, eye_from_local = -1, normal_from_local = -1, toward_eye = -1;
+        int base_color = -1, emissive = -1, factors = -1, ambient = -1;
+        int sun_direction = -1, sun_color = -1;
+        int light_position = -1, light_color = -1, light_direction = -1, light_count = -1;
+    };
+    struct TextureBinding {
+        int unit;
+        std::uint32_t texture;
+    };
+    struct Draw {
+        int variant = 0;
+        int surface = 0;
+        int material = 0;
+        bool double_sided = false;
+        std::vector<TextureBinding> textures;
+        std::vector<int> lights;
+    };
+
+    [[nodiscard]] std::vector<std::string_view> defines_of(const Renderer& renderer, const Surface& surface, bool lit_locally) const;
+    int variant_of(Renderer& renderer, const std::vector<std::string_view>& defines);
+    void add_draw(Renderer& renderer, int surface);
+    void sort_by_distance(const Renderer& renderer, const View& view);
+    void set_variant(Renderer& renderer, const View& view, const Variant& variant);
+    void set_material(Renderer& renderer, const View& view, const Variant& variant, const Draw& draw);
+    void set_matrices(Renderer& renderer, const View& view, const Variant& variant, const Draw& draw, const glm::mat4& clip);
+    void set_lights(Renderer& renderer, const View& view, const Variant& variant, const Draw& draw);
+    void draw_one(Renderer& renderer, const View& view, const Draw& draw);
+
+    const Light* sun_ = nullptr;
+    std::vector<Variant> variants_;
+    std::vector<gl::Program*> programs_;
+    std::vector<Draw> opaque_;
+    std::vector<Draw> transparent_;
+    struct Order {
+        double distance;
+        int draw;
+    };
+    std::vector<Order> order_;  ///< of transparent_, far first; sized while preparing
+    int current_variant_ = -1;
+    int current_material_ = -1;
+};
+
+}  // namespace halfframe

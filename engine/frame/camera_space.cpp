@@ -1,0 +1,69 @@
+// Matrices relative to the eye, and what is in view.
+#include "engine/frame/camera_space.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace halfframe {
+
+namespace {
+
+glm::dmat4 precise_eye_from_local(const View& view, const glm::mat4& world_from_local) {
+    glm::dmat4 matrix(world_from_local);
+    matrix[3] -= glm::dvec4(glm::dvec3(view.eye), 0.0) * matrix[3].w;
+    return matrix;
+}
+
+std::array<glm::vec4, 8> clip_corners(const Box& box, const glm::mat4& clip_from_local_matrix) {
+    std::array<glm::vec4, 8> corners;
+    for (unsigned i = 0; i < 8; ++i) {
+        const glm::vec3 corner{i & 1u ? box.high.x : box.low.x, i & 2u ? box.high.y : box.low.y, i & 4u ? box.high.z : box.low.z};
+        corners[i] = clip_from_local_matrix * glm::vec4(corner, 1.0f);
+    }
+    return corners;
+}
+
+}  // namespace
+
+glm::mat4 eye_from_local(const View& view, const glm::mat4& world_from_local) {
+    return glm::mat4(precise_eye_from_local(view, world_from_local));
+}
+
+glm::mat4 clip_from_local(const View& view, const glm::mat4& world_from_local) {
+    glm::dmat4 view_from_eye(view.view_from_world);
+    view_from_eye[3] = glm::dvec4(0.0, 0.0, 0.0, 1.0);  // the eye is the origin already
+    return glm::mat4(glm::dmat4(view.clip_from_view) * view_from_eye * precise_eye_from_local(view, world_from_local));
+}
+
+glm::mat4 normal_from_local(const glm::mat4& world_from_local) {
+    const glm::dmat3 upper(world_from_local);
+    if (std::abs(glm::determinant(upper)) < 1e-30) return glm::mat4(1.0f);
+    return glm::mat4(glm::mat3(glm::transpose(glm::inverse(upper))));
+}
+
+bool outside_view(const Box& local, const glm::mat4& clip_from_local_matrix) {
+    if (local.empty()) return true;
+    const auto corners = clip_corners(local, clip_from_local_matrix);
+    for (int axis = 0; axis < 3; ++axis) {
+        if (std::ranges::all_of(corners, [&](const glm::vec4& corner) { return corner[axis] < -corner.w; })) return true;
+        if (std::ranges::all_of(corners, [&](const glm::vec4& corner) { return corner[axis] > corner.w; })) return true;
+    }
+    return false;
+}
+
+double screen_fraction(const Box& local, const glm::mat4& clip_from_local_matrix) {
+    if (outside_view(local, clip_from_local_matrix)) return 0.0;
+    glm::dvec2 low{1.0}, high{-1.0};
+    for (const glm::vec4& corner : clip_corners(local, clip_from_local_matrix)) {
+        if (corner.w <= 1e-6f) return 1.0;
+        const glm::dvec2 at{corner.x / corner.w, corner.y / corner.w};
+        low = glm::min(low, at);
+        high = glm::max(high, at);
+    }
+    low = glm::clamp(low, -1.0, 1.0);
+    high = glm::clamp(high, -1.0, 1.0);
+    return (high.x - low.x) * (high.y - low.y) * 0.25;
+}
+
+}  // namespace halfframe

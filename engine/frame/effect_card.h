@@ -1,0 +1,96 @@
+// The card of an effect: everything the house knows about it in one place.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "engine/frame/scene.h"
+#include "engine/frame/tier.h"
+#include "engine/gl/caps.h"
+#include "engine/gl/program.h"
+
+namespace halfframe {
+
+struct FramePlan;
+class Renderer;
+
+/// What an effect needs to know to decide and to plan.
+struct PlanContext {
+    const Scene& scene;
+    const View& view;
+    const gl::Caps& caps;
+    Tier tier;              ///< of this effect
+    Arithmetic arithmetic;
+    gl::PixelFormat storage;  ///< of scene_color
+};
+
+/// The answer of a demand predicate: does the scene call for the effect, and the sentence why or why not.
+struct Demand {
+    bool called_for = false;
+    std::string why;
+};
+
+/// A program of a tier and the defines that vary it. The shader gates compile the base, each define alone, and all
+/// together, so what is not listed here cannot be used: Renderer::describe() checks.
+struct ShaderVariant {
+    std::string_view vertex;
+    std::string_view fragment;
+    std::string_view defines;  ///< names, space separated
+};
+
+/// What one tier of an effect is.
+struct TierCard {
+    std::span<const ShaderVariant> shaders;
+    std::string_view targets;  ///< what it writes, in words: "scene_color, depth"
+    std::string_view eye;      ///< what the eye sees at this tier, and what it loses
+};
+
+enum class EffectKind : std::uint8_t {
+    pass,      ///< adds passes to the plan
+    material,  ///< adds code to other effects' shaders at named insertion points
+};
+
+/// Draws the passes of one effect. Made while preparing; draw() neither allocates nor creates.
+class EffectWork {
+public:
+    EffectWork() = default;
+    EffectWork(const EffectWork&) = delete;
+    EffectWork& operator=(const EffectWork&) = delete;
+    virtual ~EffectWork() = default;
+    /// Draws pass `phase` of this effect; targets, viewport and start actions are set already.
+    virtual void draw(Renderer& renderer, const View& view, int phase) = 0;
+};
+
+struct EffectCard {
+    std::string_view name;     ///< folder, budget row, ctest label and command-line name
+    std::string_view purpose;  ///< one sentence
+    std::string_view sources;  ///< papers and talks, with sections
+    EffectKind kind = EffectKind::pass;
+    std::string_view called_for_by;  ///< what in a scene calls for it, in words
+    std::string_view budget_row;     ///< a row of the budget; its own name or a shared group's
+    std::array<TierCard, kTierCount> tiers;
+
+    Demand (*called_for)(const PlanContext&) = nullptr;
+    /// Pass effects: appends targets and passes. Runs only when called for.
+    void (*add_passes)(const PlanContext&, FramePlan&) = nullptr;
+    /// Material effects (and pass effects that also change other shaders): the code to add. Runs only when called for.
+    std::span<const gl::Insertion> (*insertions)(const PlanContext&) = nullptr;
+    /// Pass effects: compiles and uploads what draw() needs. Runs only when the plan holds a pass of the effect.
+    std::unique_ptr<EffectWork> (*prepare)(Renderer&) = nullptr;
+};
+
+/// Everything that decides the text of one variant of a card's program at a tier: dialect (low is ES 1.00, the others
+/// ES 3.00), TIER_* define, attribute bindings, `defines`. A define the variant does not list: Mistake.
+[[nodiscard]] gl::ProgramDescription describe_variant(const EffectCard& card, const ShaderVariant& variant, Tier tier,
+                                                      Arithmetic arithmetic, bool fragment_highp,
+                                                      std::span<const std::string_view> defines);
+
+/// The one explicit list, in the order the plan asks (engine/effects.cpp). Nothing registers itself.
+[[nodiscard]] std::span<const EffectCard* const> all_effects();
+[[nodiscard]] const EffectCard* find_effect(std::string_view name);
+
+}  // namespace halfframe

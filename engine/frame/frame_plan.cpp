@@ -1,0 +1,292 @@
+// Plans a frame: asks every card, chooses storage, orders the passes. Pure: nothing here knows GL.
+#include "engine/frame/frame_plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "engine/error.h"
+#include "shaders_es/tone_map/tone_map_limits.h"
+
+namespace halfframe {
+
+namespace {
+
+using gl::PixelFormat;
+
+constexpr std::array kLadder = {PixelFormat::rgba16f, PixelFormat::r11g11b10f, PixelFormat::rgb10_a2, PixelFormat::rgba8};
+
+bool renders(const gl::Caps& caps, PixelFormat format) { return caps.renders[static_cast<std::size_t>(format)]; }
+
+/// Why `tier` cannot run on this device, or nothing.
+std::optional<std::string> tier_obstacle(Tier tier, const gl::Caps& caps) {
+    if (tier == Tier::low) return std::nullopt;
+    if (caps.es_version < 30) {
+        return fmt::format("tier {} needs OpenGL ES 3.0 and {} is ES {}.{}", name(tier), caps.device, caps.es_version / 10,
+                           caps.es_version % 10);
+    }
+    if (tier == Tier::reference && !renders(caps, PixelFormat::rgba32f) && !renders(caps, PixelFormat::rgba16f)) {
+        return fmt::format("tier reference needs a float target (EXT_color_buffer_float) and {} renders none", caps.device);
+    }
+    return std::nullopt;
+}
+
+Tier chosen_tier(const Wishes& wishes, const gl::Caps& caps) {
+    if (!wishes.tier) return tier_obstacle(Tier::console, caps) ? Tier::low : Tier::console;
+    if (const auto obstacle = tier_obstacle(*wishes.tier, caps)) {
+        throw Error(Fault::usage, *obstacle + "; use --tier low, or another --device");
+    }
+    return *wishes.tier;
+}
+
+Arithmetic chosen_arithmetic(const Wishes& wishes, const gl::Caps& caps) {
+    if (!wishes.arithmetic) return caps.software && caps.fragment_highp ? Arithmetic::full : Arithmetic::half;
+    if (*wishes.arithmetic == Arithmetic::full && !caps.fragment_highp) {
+        throw Error(Fault::usage, fmt::format("full arithmetic needs highp in fragment shaders and {} has none; "
+                                              "use --arithmetic half", caps.device));
+    }
+    return *wishes.arithmetic;
+}
+
+PixelFormat chosen_storage(const Wishes& wishes, Tier tier, const gl::Caps& caps, std::vector<std::string>& notices) {
+    if (wishes.storage) {
+        if (!renders(caps, *wishes.storage)) {
+            throw Error(Fault::usage, fmt::format("storage {} does not render on {}; leave --storage out to get the best "
+                                                  "that does", name(*wishes.storage), caps.device));
+        }
+        return *wishes.storage;
+    }
+    if (tier == Tier::low) return PixelFormat::rgba8;
+    if (tier == Tier::reference && renders(caps, PixelFormat::rgba32f)) return PixelFormat::rgba32f;
+    for (const PixelFormat format : kLadder) {
+        if (!renders(caps, format)) continue;
+        if (format != kLadder.front()) {
+            notices.push_back(fmt::format("{} does not render {}, so scene_color is {}", caps.device,
+                                          name(kLadder.front()), name(format)));
+        }
+        return format;
+    }
+    throw Error(Fault::context, fmt::format("{} renders no colour format at all", caps.device));
+}
+
+Tier tier_for(std::string_view effect, Tier tier, const Wishes& wishes, const gl::Caps& caps) {
+    for (const auto& [wished_effect, wished] : wishes.effect_tiers) {
+        if (wished_effect != effect) continue;
+        if (const auto obstacle = tier_obstacle(wished, caps)) throw Error(Fault::usage, *obstacle);
+        tier = wished;
+    }
+    return tier;
+}
+
+std::optional<bool> switch_for(std::string_view effect, const Wishes& wishes) {
+    std::optional<bool> on;
+    for (const auto& [wished_effect, wished] : wishes.effect_switches) {
+        if (wished_effect == effect) on = wished;
+    }
+    return on;
+}
+
+void check_names(const Wishes& wishes, std::span<const EffectCard* const> cards) {
+    const auto known = [&](const std::string& effect) {
+        return std::ranges::any_of(cards, [&](const EffectCard* card) { return card->name == effect; });
+    };
+    const auto refuse = [&](const std::string& effect) {
+        std::string names;
+        for (const EffectCard* card : cards) names += (names.empty() ? "" : ", ") + std::string(card->name);
+        throw Error(Fault::usage, fmt::format("there is no effect called {}; there are {}", effect, names));
+    };
+    for (const auto& [effect, tier] : wishes.effect_tiers) {
+        if (!known(effect)) refuse(effect);
+    }
+    for (const auto& [effect, on] : wishes.effect_switches) {
+        if (!known(effect)) refuse(effect);
+    }
+}
+
+/// What a display value becomes in scene_color, so that a background looks the same on every rung of the ladder.
+glm::vec4 background_in(const glm::vec3& display, PixelFormat storage) {
+    if (holds_display_values(storage)) return {display, 1.0f};
+    glm::vec3 light{0.0f};
+    for (int i = 0; i < 3; ++i) {
+        const float y = std::clamp(display[i], 0.0f, 1.0f);
+        light[i] = static_cast<float>(TONE_MAP_A * y / (TONE_MAP_B - y));
+        if (storage == PixelFormat::rgb10_a2) {  // packed as in shaders_es/common/packing.glsl
+            light[i] = static_cast<float>(std::sqrt(std::min(light[i] / TONE_MAP_RANGE, 1.0)));
+        }
+    }
+    return {light, 1.0f};
+}
+
+/// The first pass that writes a target starts it: with a clear, or with nothing if it covers every pixel anyway.
+void set_start_actions(FramePlan& plan, const glm::vec4& background) {
+    std::vector<bool> started(plan.targets.size(), false);
+    for (Pass& pass : plan.passes) {
+        if (pass.color && !started[static_cast<std::size_t>(*pass.color)]) {
+            started[static_cast<std::size_t>(*pass.color)] = true;
+            const bool covers = pass.full_screen && !pass.depth;
+            pass.start_color = covers ? StartAction::discard : StartAction::clear;
+            pass.clear_color = background;
+        }
+        if (pass.depth && !started[static_cast<std::size_t>(*pass.depth)]) {
+            started[static_cast<std::size_t>(*pass.depth)] = true;
+            pass.start_depth = StartAction::clear;
+        }
+    }
+}
+
+/// Asks one card, and lets it add what it adds.
+void decide(const EffectCard& card, const PlanContext& context, const Wishes& wishes, FramePlan& plan) {
+    EffectDecision decision{.effect = std::string(card.name), .in = false, .tier = context.tier, .why = {}, .insertions = {}};
+    const Demand demand = card.called_for(context);
+    decision.in = demand.called_for;
+    decision.why = demand.why;
+    if (const auto on = switch_for(card.name, wishes); on && *on != demand.called_for) {
+        decision.in = *on;
+        decision.why = fmt::format("switched {} by hand; by itself {}: {}", *on ? "on" : "off", demand.called_for ? "in" : "out",
+                                   demand.why);
+    }
+    if (decision.in) {
+        if (card.add_passes) card.add_passes(context, plan);
+        if (card.insertions) {
+            const auto insertions = card.insertions(context);
+            decision.insertions.assign(insertions.begin(), insertions.end());
+        }
+    }
+    plan.effects.push_back(std::move(decision));
+}
+
+}  // namespace
+
+std::size_t FramePlan::target_bytes() const {
+    std::size_t sum = 0;
+    for (const Target& target : targets) sum += target.bytes();
+    return sum;
+}
+
+double FramePlan::bytes_per_pixel() const {
+    const double pixels = static_cast<double>(width) * static_cast<double>(height);
+    return pixels > 0.0 ? static_cast<double>(target_bytes()) / pixels : 0.0;
+}
+
+const EffectDecision* FramePlan::find(std::string_view effect) const {
+    const auto found = std::ranges::find(effects, effect, &EffectDecision::effect);
+    return found == effects.end() ? nullptr : &*found;
+}
+
+int FramePlan::target_index(std::string_view target) const {
+    for (std::size_t i = 0; i < targets.size(); ++i) {
+        if (targets[i].name == target) return static_cast<int>(i);
+    }
+    return -1;
+}
+
+bool FramePlan::hdr() const { return !holds_display_values(storage); }
+
+int FramePlan::add_target(std::string_view target_name, gl::PixelFormat format) {
+    if (const int index = target_index(target_name); index >= 0) return index;
+    if (census && !gl::is_depth(format)) format = PixelFormat::rgba32f;
+    targets.push_back({std::string(target_name), format, width, height});
+    return static_cast<int>(targets.size()) - 1;
+}
+
+int FramePlan::add_scene_color() {
+    // Where materials store display values, the picture needs no second target.
+    const bool is_display = holds_display_values(storage);
+    const int index = add_target(is_display ? "display" : "scene_color", storage);
+    if (is_display) display = index;
+    return index;
+}
+
+int FramePlan::add_scene_depth() { return add_target("depth", depth_format); }
+
+FramePlan plan_frame(const Scene& scene, const View& view, const Wishes& wishes, const gl::Caps& caps,
+                     std::span<const EffectCard* const> cards) {
+    check_names(wishes, cards);
+    FramePlan plan;
+    plan.scene = scene.name;
+    plan.width = view.width;
+    plan.height = view.height;
+    plan.tier = chosen_tier(wishes, caps);
+    plan.arithmetic = chosen_arithmetic(wishes, caps);
+    plan.storage = chosen_storage(wishes, plan.tier, caps, plan.notices);
+    plan.census = wishes.census;
+    plan.depth_format = renders(caps, PixelFormat::depth24) && plan.tier != Tier::low ? PixelFormat::depth24 : PixelFormat::depth16;
+    if (wishes.census && !renders(caps, PixelFormat::rgba32f)) {
+        throw Error(Fault::usage, fmt::format("the census needs RGBA32F targets and {} does not render them", caps.device));
+    }
+    for (const EffectCard* card : cards) {
+        const Tier tier = tier_for(card->name, plan.tier, wishes, caps);
+        decide(*card, {scene, view, caps, tier, plan.arithmetic, plan.storage}, wishes, plan);
+    }
+    std::ranges::stable_sort(plan.passes, {}, &Pass::order);
+    const glm::vec4 background = background_in(scene.background, plan.storage);
+    if (plan.display < 0 && !plan.passes.empty()) {
+        throw Error(Fault::usage, fmt::format("no effect brings {} to the display; leave tone_map on, or use --storage rgba8",
+                                              name(plan.storage)));
+    }
+    if (plan.display < 0) {
+        // Nothing that draws was called for: the picture is the background.
+        plan.display = plan.add_target("display", PixelFormat::rgba8);
+        Pass clear;
+        clear.name = "clear";
+        clear.order = PassOrder::display;
+        clear.color = plan.display;
+        plan.passes.push_back(clear);
+        set_start_actions(plan, {scene.background, 1.0f});
+        return plan;
+    }
+    set_start_actions(plan, background);
+    return plan;
+}
+
+namespace {
+
+std::optional<std::string> broken_pass_rule(const FramePlan& plan, const Pass& pass, std::vector<bool>& written) {
+    for (const int read : pass.reads) {
+        const std::string& target = plan.targets[static_cast<std::size_t>(read)].name;
+        if (!written[static_cast<std::size_t>(read)]) {
+            return fmt::format("pass {} reads {} before any pass has written it", pass.name, target);
+        }
+        if (read == pass.color || read == pass.depth) {
+            return fmt::format("pass {} samples {} while it is bound as its own target", pass.name, target);
+        }
+    }
+    for (const auto& [target, start] : {std::pair{pass.color, pass.start_color}, std::pair{pass.depth, pass.start_depth}}) {
+        if (!target) continue;
+        if (!written[static_cast<std::size_t>(*target)] && start == StartAction::keep) {
+            return fmt::format("pass {} keeps what is in {} and nothing has been written there", pass.name,
+                               plan.targets[static_cast<std::size_t>(*target)].name);
+        }
+        written[static_cast<std::size_t>(*target)] = true;
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<std::string> broken_rule(const FramePlan& plan, const gl::Caps& caps) {
+    for (const Target& target : plan.targets) {
+        if (target.width < 1 || target.height < 1) return fmt::format("target {} has no pixels", target.name);
+        if (!renders(caps, target.format)) {
+            return fmt::format("target {} is {}, which {} does not render", target.name, name(target.format), caps.device);
+        }
+        const int limit = gl::is_depth(target.format) ? caps.max_renderbuffer_size : caps.max_texture_size;
+        if (target.width > limit || target.height > limit) {
+            return fmt::format("target {} is {}x{} pixels and {} allows {}", target.name, target.width, target.height,
+                               caps.device, limit);
+        }
+    }
+    std::vector<bool> written(plan.targets.size(), false);
+    for (const Pass& pass : plan.passes) {
+        if (auto broken = broken_pass_rule(plan, pass, written)) return broken;
+    }
+    if (plan.display < 0 || !written[static_cast<std::size_t>(plan.display)]) return "no pass writes the display target";
+    if (const double limit = bytes_per_pixel_limit(plan.tier); !plan.census && plan.bytes_per_pixel() > limit) {
+        return fmt::format("the targets take {:.1f} bytes a pixel and tier {} allows {:.1f}", plan.bytes_per_pixel(),
+                           name(plan.tier), limit);
+    }
+    return std::nullopt;
+}
+
+}  // namespace halfframe

@@ -1,0 +1,163 @@
+// Boxes of scenes, and cameras made from boxes.
+#include "engine/frame/scene.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "engine/error.h"
+
+namespace halfframe {
+namespace {
+
+// Smallest half size a camera is made for [m]: a single point still gives a finite camera.
+constexpr float kSmallestHalfSize = 1e-3f;
+// Smallest near over far. 24-bit depth then still separates 1/16 of a unit at the far plane of a 1000-unit scene.
+constexpr float kSmallestNearOverFar = 1e-3f;
+// Air around a framed box, so that edges of the model do not touch edges of the picture.
+constexpr float kFramingMargin = 1.05f;
+// Where a framing camera stands, seen from the centre: to the right, above and in front.
+const glm::vec3 kThreeQuarters{0.55f, 0.42f, 0.72f};
+
+std::array<glm::vec3, 8> corners(const Box& box) {
+    std::array<glm::vec3, 8> result{};
+    for (unsigned corner = 0; corner < 8; ++corner) {
+        result[corner] = {(corner & 1u) ? box.high.x : box.low.x, (corner & 2u) ? box.high.y : box.low.y,
+                          (corner & 4u) ? box.high.z : box.low.z};
+    }
+    return result;
+}
+
+/// `box`, or a small cube when it is empty, made at least kSmallestHalfSize thick through its middle.
+Box solid(const Box& box) {
+    if (box.empty()) {
+        return {glm::vec3(-1.0f), glm::vec3(1.0f)};
+    }
+    const glm::vec3 centre = 0.5f * (box.low + box.high);
+    glm::vec3 half = 0.5f * (box.high - box.low);
+    if (std::max({half.x, half.y, half.z}) < kSmallestHalfSize) {
+        half = glm::vec3(kSmallestHalfSize);
+    }
+    return {centre - half, centre + half};
+}
+
+glm::mat4 world_from_view_looking(const glm::vec3& eye, const glm::vec3& forward) {
+    const bool straight_up_or_down = std::abs(forward.y) > 0.999f;
+    const glm::vec3 up = straight_up_or_down ? glm::vec3(0.0f, 0.0f, 1.0f) : glm::vec3(0.0f, 1.0f, 0.0f);
+    const glm::vec3 right = glm::normalize(glm::cross(forward, up));
+    const glm::vec3 true_up = glm::cross(right, forward);
+    return {glm::vec4(right, 0.0f), glm::vec4(true_up, 0.0f), glm::vec4(-forward, 0.0f), glm::vec4(eye, 1.0f)};
+}
+
+/// Near and far around what of `box` lies before the eye.
+void set_depth_range(Camera& camera, const glm::vec3& eye, const glm::vec3& forward, const Box& box) {
+    float nearest = 1e30f;
+    float farthest = -1e30f;
+    for (const glm::vec3& corner : corners(box)) {
+        const float depth = glm::dot(corner - eye, forward);
+        nearest = std::min(nearest, depth);
+        farthest = std::max(farthest, depth);
+    }
+    const float size = glm::length(box.high - box.low);
+    camera.far_m = std::max(farthest * 1.05f, size * 0.05f);
+    camera.near_m = std::clamp(nearest * 0.9f, camera.far_m * kSmallestNearOverFar, camera.far_m * 0.5f);
+}
+
+}  // namespace
+
+Box local_box(const Mesh& mesh) {
+    Box box;
+    if (mesh.indices.empty()) {
+        for (const glm::vec3& position : mesh.positions) {
+            box.add(position);
+        }
+    } else {
+        for (const std::uint32_t index : mesh.indices) {
+            expect(index < mesh.positions.size(), "an index of a mesh lies past its last vertex");
+            box.add(mesh.positions[index]);
+        }
+    }
+    return box;
+}
+
+Box world_box(const Box& local, const glm::mat4& world_from_local) {
+    Box box;
+    if (!local.empty()) {
+        for (const glm::vec3& corner : corners(local)) {
+            box.add(glm::vec3(world_from_local * glm::vec4(corner, 1.0f)));
+        }
+    }
+    return box;
+}
+
+Box world_box(const Scene& scene) {
+    std::vector<Box> local(scene.meshes.size());
+    std::transform(scene.meshes.begin(), scene.meshes.end(), local.begin(),
+                   [](const Mesh& mesh) { return local_box(mesh); });
+    Box box;
+    for (const Surface& surface : scene.surfaces) {
+        const Box world = world_box(local.at(static_cast<std::size_t>(surface.mesh)), surface.world_from_local);
+        if (!world.empty()) {
+            box.add(world.low);
+            box.add(world.high);
+        }
+    }
+    return box;
+}
+
+View view_of(const Camera& camera, int width, int height) {
+    expect(width > 0 && height > 0, "a view needs a width and a height of at least one pixel");
+    const float aspect = static_cast<float>(width) / static_cast<float>(height);
+    View view;
+    view.view_from_world = glm::inverse(camera.world_from_view);
+    view.eye = glm::vec3(camera.world_from_view[3]);
+    view.width = width;
+    view.height = height;
+    view.orthographic = camera.orthographic;
+    if (camera.orthographic) {
+        const float half_width = camera.half_height_m * aspect;
+        view.clip_from_view = glm::ortho(-half_width, half_width, -camera.half_height_m, camera.half_height_m,
+                                         camera.near_m, camera.far_m);
+    } else {
+        view.clip_from_view = glm::perspective(camera.fov_y_rad, aspect, camera.near_m, camera.far_m);
+    }
+    return view;
+}
+
+Camera camera_framing(const Box& box, float aspect, float fov_y_rad) {
+    expect(aspect > 0.0f && fov_y_rad > 0.0f && fov_y_rad < 3.1f,
+           "a framing camera needs an aspect above 0 and a field of view between 0 and 3.1 rad");
+    const Box framed = solid(box);
+    const glm::vec3 centre = 0.5f * (framed.low + framed.high);
+    const glm::vec3 forward = -glm::normalize(kThreeQuarters);
+    const glm::mat4 axes = world_from_view_looking(centre, forward);
+    const glm::vec3 right(axes[0]);
+    const glm::vec3 up(axes[1]);
+    const float tan_y = std::tan(0.5f * fov_y_rad) / kFramingMargin;
+    const float tan_x = tan_y * aspect;
+    // A corner is inside when |sideways| <= tan * (distance + depth beyond the centre): the largest distance wins.
+    float distance = 0.0f;
+    for (const glm::vec3& corner : corners(framed)) {
+        const glm::vec3 offset = corner - centre;
+        const float beyond = glm::dot(offset, forward);
+        distance = std::max(distance, std::abs(glm::dot(offset, right)) / tan_x - beyond);
+        distance = std::max(distance, std::abs(glm::dot(offset, up)) / tan_y - beyond);
+    }
+    return camera_looking(centre - forward * distance, centre, fov_y_rad, framed);
+}
+
+Camera camera_looking(const glm::vec3& eye, const glm::vec3& target, float fov_y_rad, const Box& scene_box) {
+    const glm::vec3 away = target - eye;
+    const float distance = glm::length(away);
+    expect(distance > 0.0f, "a camera needs a target that is not its eye");
+    const glm::vec3 forward = away / distance;
+    Camera camera;
+    camera.fov_y_rad = fov_y_rad;
+    camera.world_from_view = world_from_view_looking(eye, forward);
+    set_depth_range(camera, eye, forward, solid(scene_box));
+    return camera;
+}
+
+}  // namespace halfframe

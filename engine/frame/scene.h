@@ -1,0 +1,159 @@
+// A scene as plain data: no GL, no files. Lengths in metres, angles in radians, +Y up, right-handed.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+namespace halfframe {
+
+enum class Primitive : std::uint8_t { points, lines, line_loop, line_strip, triangles, triangle_strip, triangle_fan };
+
+/// One vertex stream set. Empty optional streams are absent; present ones are as long as `positions`.
+struct Mesh {
+    std::string name;
+    std::vector<glm::vec3> positions;  ///< [m], local
+    std::vector<glm::vec3> normals;    ///< unit
+    std::vector<glm::vec4> tangents;   ///< xyz unit, w = +1 or -1: bitangent = cross(normal, tangent) * w
+    std::vector<glm::vec2> uv;
+    std::vector<glm::vec4> colors;       ///< linear, 0..1
+    std::vector<std::uint32_t> indices;  ///< empty: draw in order
+    Primitive primitive = Primitive::triangles;
+};
+
+/// 8-bit pixels, row 0 first at v = 0 (glTF convention: top of the picture).
+struct Image {
+    std::string name;
+    int width = 0;
+    int height = 0;
+    bool srgb = false;               ///< colour data; else linear data
+    std::vector<std::uint8_t> rgba;  ///< 4 * width * height
+};
+
+enum class Wrap : std::uint8_t { repeat, clamp, mirror };
+
+/// A use of an image: which and how it is sampled.
+struct Texture {
+    int image = -1;  ///< index in Scene::images; -1: none
+    Wrap wrap_u = Wrap::repeat;
+    Wrap wrap_v = Wrap::repeat;
+    bool linear = true;  ///< filter inside a level and on magnification
+    bool mipmaps = true;
+    [[nodiscard]] explicit operator bool() const { return image >= 0; }
+    bool operator==(const Texture&) const = default;
+};
+
+enum class AlphaMode : std::uint8_t { opaque, mask, blend };
+
+/// Metallic-roughness as glTF 2.0 has it; mapped to albedo, specular and power by surface (engine/effects/surface).
+struct Material {
+    std::string name;
+    glm::vec4 base_color{1.0f};  ///< linear, 0..1
+    float metallic = 1.0f;       ///< 0..1
+    float roughness = 1.0f;      ///< 0..1, perceptual (alpha = roughness squared)
+    glm::vec3 emissive{0.0f};    ///< linear radiance scale
+    float normal_scale = 1.0f;
+    float alpha_cutoff = 0.5f;  ///< 0..1, mask only
+    AlphaMode alpha_mode = AlphaMode::opaque;
+    bool double_sided = false;
+    Texture base_color_texture;          ///< sRGB
+    Texture metallic_roughness_texture;  ///< G roughness, B metallic
+    Texture normal_texture;              ///< tangent space, +Y up
+    Texture emissive_texture;            ///< sRGB
+};
+
+/// One drawn thing: a mesh with a material at a place.
+struct Surface {
+    std::string name;
+    int mesh = 0;
+    int material = 0;
+    glm::mat4 world_from_local{1.0f};
+    bool dynamic = false;  ///< moves: characters, doors
+};
+
+enum class LightKind : std::uint8_t { sun, point, spot };
+
+/// A punctual light. `color` is c_light of Hoffman 2010: a white Lambert surface facing it at 1 m (or at any distance
+/// for a sun) shows exactly `color`. That is, irradiance is pi * color.
+struct Light {
+    LightKind kind = LightKind::point;
+    std::string name;
+    glm::vec3 color{1.0f};                    ///< linear, >= 0
+    glm::vec3 position{0.0f};                 ///< [m] point, spot
+    glm::vec3 direction{0.0f, -1.0f, 0.0f};   ///< unit, the way the light travels: sun, spot
+    float range_m = 10.0f;                    ///< falls smoothly to 0 here; point, spot
+    float inner_cone_rad = 0.0f;              ///< spot: full inside this half angle
+    float outer_cone_rad = 0.785398f;         ///< spot: dark outside this half angle
+};
+
+struct Camera {
+    std::string name;
+    glm::mat4 world_from_view{1.0f};  ///< looks along its -Z
+    float fov_y_rad = 0.785398f;      ///< perspective
+    float near_m = 0.1f;
+    float far_m = 1000.0f;
+    bool orthographic = false;
+    float half_height_m = 1.0f;  ///< orthographic
+};
+
+/// A vertical gradient in *display* values (what a picture would show), taken back to linear light through the inverse
+/// tone map where the frame is HDR (talk, "LDR sky").
+struct Sky {
+    glm::vec3 zenith{0.16f, 0.20f, 0.28f};
+    glm::vec3 horizon{0.45f, 0.50f, 0.58f};
+    glm::vec3 ground{0.12f, 0.12f, 0.13f};
+};
+
+/// What is drawn. An effect is simulated only if something here calls for it.
+struct Scene {
+    std::string name;
+    std::vector<Mesh> meshes;
+    std::vector<Image> images;
+    std::vector<Material> materials;
+    std::vector<Surface> surfaces;
+    std::vector<Light> lights;
+    std::vector<Camera> cameras;
+    glm::vec3 ambient{0.0f};                  ///< constant radiance from everywhere, linear
+    std::optional<Sky> sky;                   ///< none: the background is `background`
+    glm::vec3 background{0.03f, 0.03f, 0.035f};  ///< display value behind everything
+    std::vector<std::string> notices;         ///< what the loader left out, one sentence each
+};
+
+/// Axis-aligned box; empty when low > high.
+struct Box {
+    glm::vec3 low{1e30f};
+    glm::vec3 high{-1e30f};
+    [[nodiscard]] bool empty() const { return low.x > high.x; }
+    void add(const glm::vec3& point) {
+        low = glm::min(low, point);
+        high = glm::max(high, point);
+    }
+};
+
+[[nodiscard]] Box local_box(const Mesh& mesh);
+[[nodiscard]] Box world_box(const Box& local, const glm::mat4& world_from_local);
+/// Box of every surface together [m].
+[[nodiscard]] Box world_box(const Scene& scene);
+
+/// Where a frame is seen from and how big it is.
+struct View {
+    glm::mat4 view_from_world{1.0f};
+    glm::mat4 clip_from_view{1.0f};
+    glm::vec3 eye{0.0f};  ///< [m] world
+    int width = 1280;     ///< [pixels]
+    int height = 720;
+    float exposure = 1.0f;  ///< linear factor before the tone map
+    bool orthographic = false;
+    [[nodiscard]] glm::mat4 clip_from_world() const { return clip_from_view * view_from_world; }
+};
+
+[[nodiscard]] View view_of(const Camera& camera, int width, int height);
+/// A camera three quarters from above that has the whole of `box` inside the picture.
+[[nodiscard]] Camera camera_framing(const Box& box, float aspect, float fov_y_rad = 0.6981317f);
+/// eye to target [m], +Y up (or +Z when looking straight up or down).
+[[nodiscard]] Camera camera_looking(const glm::vec3& eye, const glm::vec3& target, float fov_y_rad, const Box& scene_box);
+
+}  // namespace halfframe

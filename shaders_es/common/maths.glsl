@@ -1,0 +1,17 @@
+// Small functions that several effects share.
+
+float saturate(float x) { return clamp(x, 0.0, 1.0); }
+
+// x^5 in three multiplications: exact, and cheaper than pow (Schlick 1994).
+float pow5(float x) {
+    float x2 = x * x;
+    return x2 * x2 * x;
+}
+
+// What may be stored: NaN and negatives become 0, everything else at most `limit`. Written as a comparison, because
+// min, max and clamp of a NaN may return either argument; NaN > 0.0 is false everywhere.
+float storable(float x, float limit) { return x > 0.0 ? min(x, limit) : 0.0; }
+
+vec3 storable(vec3 color, float limit) {
+    return vec3(storable(color.r, limit), storable(color.g, limit), storable(color.b, limit));
+}

@@ -1,0 +1,10 @@
+// ES 3.00: the only file, with es100.glsl, that knows how this language spells things.
+#include "common/precision.glsl"
+#ifdef STAGE_VERTEX
+#define VERTEX_IN in
+#define VERTEX_OUT out
+#else
+#define FRAGMENT_IN in
+layout(location = 0) out HALF vec4 fragment_color;
+#endif
+#define sample_2d(image, at) texture(image, at)

@@ -1,0 +1,10 @@
+// A vertical gradient of display values, and what the talk does with an LDR sky: it goes back through the tone curve, so
+// that it reads the same after the frame's own tone map.
+
+// height: sine of the elevation, -1..1. Each colour is a display value 0..1.
+vec3 sky_gradient(float height, vec3 zenith, vec3 horizon, vec3 ground) {
+    float up = 1.0 - saturate(height);
+    float above = 1.0 - up * up * up;                 // most of the change near the horizon
+    float below = saturate(-height * 8.0);            // the ground colour from 7 degrees under the horizon
+    return mix(mix(horizon, zenith, above), ground, below * below * (3.0 - 2.0 * below));
+}

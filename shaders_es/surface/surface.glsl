@@ -1,0 +1,63 @@
+// The talk's direct light (T1): Lambert plus Blinn microfacets with energy conservation, N. Hoffman, "Crafting Physically
+// Motivated Shading Models for Game Development", SIGGRAPH 2010, as used by S. Lagarde and L. Harduin, GDC Europe 2013.
+// Plain functions of values: they sample nothing, so tests can call each one alone.
+
+// Fresnel reflectance (Schlick 1994). specular 0..1, l_dot_h 0..1.
+vec3 fresnel_schlick(vec3 specular, float l_dot_h) { return specular + (1.0 - specular) * pow5(saturate(1.0 - l_dot_h)); }
+
+// Fresnel of a prefiltered environment: rough surfaces brighten less at grazing angles (the talk, "Glossy Fresnel").
+vec3 fresnel_glossy(vec3 specular, float smoothness, float n_dot_v) {
+    return specular + (max(vec3(smoothness), specular) - specular) * pow5(saturate(1.0 - n_dot_v));
+}
+
+// Blinn power from glTF's perceptual roughness 0..1: 2 / alpha^2 - 2 with alpha = roughness^2 gives the lobe the width of
+// GGX's at its peak (B. Karis, SIGGRAPH 2013). The max() is the 2048 end of the talk's range: roughness below 0.177 looks
+// the same, and the division can never overflow half.
+float power_from_roughness(float roughness) {
+    float alpha_squared = roughness * roughness * roughness * roughness;
+    return max(2.0 / max(alpha_squared, 2.0 / (SURFACE_POWER_MAX + 2.0)) - 2.0, SURFACE_POWER_MIN);
+}
+
+// The talk's smoothness 0..1 of that power: power = 2^(10 smoothness + 1).
+float smoothness_from_power(float power) { return saturate((log2(power) - 1.0) * 0.1); }
+
+#ifdef TIER_REFERENCE
+// (n.h)^power as written.
+float blinn_lobe(FULL vec3 n, FULL vec3 h, float power) { return pow(max(dot(n, h), 1e-8), power); }
+#else
+// (n.h)^power from the chord n - h. With x = |n - h|^2 / 2 = 1 - n.h, ln(1 - x) = -x (1 + x/2 + x^2/3 + ...): at a power of
+// 2048 half's n.h has three values inside the highlight, the chord has hundreds. n and h are FULL because their difference
+// is what counts; from the scaled square on, half is enough (error under 0.6 % of the peak). 16 keeps the square of a
+// one-texel highlight (1e-5) above half's smallest normal number.
+float blinn_lobe(FULL vec3 n, FULL vec3 h, float power) {
+    FULL vec3 chord = 16.0 * (n - h);
+    float square = dot(chord, chord);    // 512 x, 0..1024
+    float x = square * (1.0 / 512.0);
+    float exponent = square * (power * (1.442695 / 512.0));
+    return exp2(-exponent * (1.0 + x * (0.5 + x * 0.333)));
+}
+#endif
+
+// Smooth fall to 0 at the light's range; 1 at 1 m. distance_squared [m^2], inverse_range_squared [1/m^2].
+// Window: B. Karis, "Real Shading in Unreal Engine 4", SIGGRAPH 2013. FULL: a distance of 256 m squared overflows half.
+// Nearer than 0.1 m it stays at 100, so that a lamp inside a surface cannot overflow.
+float distance_falloff(FULL float distance_squared, FULL float inverse_range_squared) {
+    FULL float ratio = distance_squared * inverse_range_squared;
+    FULL float window = clamp(1.0 - ratio * ratio, 0.0, 1.0);
+    return window * window / max(distance_squared, 0.01);
+}
+
+// Spot cone: 0 outside, 1 inside, smooth between. cos_scale = 1 / (cos inner - cos outer).
+float cone_falloff(float cosine, float cos_outer, float cos_scale) {
+    float t = saturate((cosine - cos_outer) * cos_scale);
+    return t * t * (3.0 - 2.0 * t);
+}
+
+// Light leaving towards v for one direction of light. `radiance` is the light's color (irradiance / pi) at the point.
+vec3 direct_light(vec3 albedo, vec3 specular, float power, FULL vec3 n, FULL vec3 v, FULL vec3 l, vec3 radiance) {
+    FULL vec3 h = l + v;
+    h *= inversesqrt(max(dot(h, h), 6.2e-5));  // l = -v has no half vector; 6.2e-5 is just above half's smallest normal
+    float n_dot_l = saturate(dot(n, l));
+    vec3 reflected = fresnel_schlick(specular, saturate(dot(l, h))) * ((power + 2.0) * 0.125 * blinn_lobe(n, h, power));
+    return (albedo + reflected) * (radiance * n_dot_l);
+}

@@ -1,0 +1,78 @@
+// Places a vertex, and hands on what the fragment stage interpolates. All positions are relative to the eye (the CPU
+// subtracts in double), so a scene 10 km from the origin shades as it does at the origin.
+#include "surface/surface_limits.h"
+#include "common/maths.glsl"
+
+VERTEX_IN vec3 position;  // [m] local
+VERTEX_IN vec4 normal;    // xyz unit
+VERTEX_IN vec4 tangent;   // xyz unit, w handedness
+VERTEX_IN vec2 uv;
+VERTEX_IN vec4 color;     // linear
+
+uniform highp mat4 clip_from_local;
+uniform highp mat4 eye_from_local;     // world axes, origin at the eye
+uniform highp mat4 normal_from_local;  // inverse transpose, world axes
+uniform highp vec4 toward_eye;         // xyz: direction to the eye if orthographic; w: scale of to_eye, see surface.cpp
+
+VERTEX_OUT FULL vec3 vertex_to_eye;  // FULL: positions in metres need more than 11 bits
+VERTEX_OUT FULL vec2 vertex_uv;      // FULL: a 2048-texel repeat is past half's 11 bits
+#ifndef UNLIT
+VERTEX_OUT HALF vec3 vertex_normal;
+#endif
+#ifdef NORMAL_MAP
+VERTEX_OUT HALF vec4 vertex_tangent;
+#endif
+#ifdef VERTEX_COLOR
+VERTEX_OUT HALF vec4 vertex_color;
+#endif
+
+#if defined(LOCAL_LIGHTS) && defined(TIER_LOW)
+// Low tier: local lights are diffuse and per vertex, so that the fragment stage stays inside 16 uniform vectors.
+#include "surface/surface.glsl"
+uniform highp vec4 light_position[SURFACE_LIGHT_LIMIT];   // xyz [m] from the eye, w = 1 / range^2
+uniform highp vec4 light_color[SURFACE_LIGHT_LIMIT];      // rgb, w = spot cos_scale (0: point)
+uniform highp vec4 light_direction[SURFACE_LIGHT_LIMIT];  // xyz unit, w = cos outer
+uniform highp vec4 light_count;                           // x
+VERTEX_OUT HALF vec3 vertex_light;
+
+vec3 local_light(vec3 at, vec3 n) {
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < SURFACE_LIGHT_LIMIT; ++i) {
+        if (float(i) >= light_count.x) break;
+        vec3 to_light = light_position[i].xyz - at;
+        float distance_squared = dot(to_light, to_light);
+        vec3 l = to_light * inversesqrt(max(distance_squared, 1e-8));
+        float falloff = distance_falloff(distance_squared, light_position[i].w);
+        if (light_color[i].w > 0.0) {
+            falloff *= cone_falloff(dot(-l, light_direction[i].xyz), light_direction[i].w, light_color[i].w);
+        }
+        sum += light_color[i].rgb * (falloff * max(dot(n, l), 0.0));
+    }
+    return sum;
+}
+#endif
+
+invariant gl_Position;  // the depth prepass writes the same depths
+
+void main() {
+    gl_Position = clip_from_local * vec4(position, 1.0);
+#ifdef POINTS
+    gl_PointSize = 4.0;
+#endif
+    vec3 at = (eye_from_local * vec4(position, 1.0)).xyz;
+    vertex_to_eye = (dot(toward_eye.xyz, toward_eye.xyz) > 0.5 ? toward_eye.xyz : -at) * toward_eye.w;
+    vertex_uv = uv;
+#ifndef UNLIT
+    vec3 n = normalize((normal_from_local * vec4(normal.xyz, 0.0)).xyz);
+    vertex_normal = n;
+#if defined(LOCAL_LIGHTS) && defined(TIER_LOW)
+    vertex_light = local_light(at, n);
+#endif
+#endif
+#ifdef NORMAL_MAP
+    vertex_tangent = vec4(normalize((eye_from_local * vec4(tangent.xyz, 0.0)).xyz), tangent.w);
+#endif
+#ifdef VERTEX_COLOR
+    vertex_color = color;
+#endif
+}

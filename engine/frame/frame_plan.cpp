@@ -211,6 +211,7 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Wishes& wishes,
     plan.arithmetic = chosen_arithmetic(wishes, caps);
     plan.storage = chosen_storage(wishes, plan.tier, caps, plan.notices);
     plan.census = wishes.census;
+    if (!wishes.storage && !wishes.census) plan.bytes_per_pixel_limit = bytes_per_pixel_limit(plan.tier);
     plan.depth_format = renders(caps, PixelFormat::depth24) && plan.tier != Tier::low ? PixelFormat::depth24 : PixelFormat::depth16;
     if (wishes.census && !renders(caps, PixelFormat::rgba32f)) {
         throw Error(Fault::usage, fmt::format("the census needs RGBA32F targets and {} does not render them", caps.device));
@@ -237,6 +238,10 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Wishes& wishes,
         return plan;
     }
     set_start_actions(plan, background);
+    if (wishes.storage && plan.bytes_per_pixel() > bytes_per_pixel_limit(plan.tier)) {
+        plan.notices.push_back(fmt::format("the targets take {:.1f} bytes a pixel, over the {:.1f} of tier {}: {} was asked for by name",
+                                           plan.bytes_per_pixel(), bytes_per_pixel_limit(plan.tier), name(plan.tier), name(plan.storage)));
+    }
     return plan;
 }
 
@@ -282,9 +287,9 @@ std::optional<std::string> broken_rule(const FramePlan& plan, const gl::Caps& ca
         if (auto broken = broken_pass_rule(plan, pass, written)) return broken;
     }
     if (plan.display < 0 || !written[static_cast<std::size_t>(plan.display)]) return "no pass writes the display target";
-    if (const double limit = bytes_per_pixel_limit(plan.tier); !plan.census && plan.bytes_per_pixel() > limit) {
+    if (plan.bytes_per_pixel_limit && plan.bytes_per_pixel() > *plan.bytes_per_pixel_limit) {
         return fmt::format("the targets take {:.1f} bytes a pixel and tier {} allows {:.1f}", plan.bytes_per_pixel(),
-                           name(plan.tier), limit);
+                           name(plan.tier), *plan.bytes_per_pixel_limit);
     }
     return std::nullopt;
 }

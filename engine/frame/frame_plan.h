@@ -72,6 +72,8 @@ struct FramePlan {
     Arithmetic arithmetic = Arithmetic::full;
     gl::PixelFormat storage = gl::PixelFormat::rgba16f;  ///< of scene_color
     bool census = false;
+    /// Limit on the bytes a pixel of all targets together: the tier's, or none when the storage was asked for by name.
+    std::optional<double> bytes_per_pixel_limit;
     std::vector<Target> targets;
     std::vector<Pass> passes;
     std::vector<EffectDecision> effects;  ///< one for every card, in the order of the list

@@ -120,7 +120,8 @@ void Renderer::prepare(const Scene& scene, const FramePlan& plan) {
     *state_ = {};
     meshes_.clear();
     notices_.clear();
-    if (scene_ != &scene) textures_ = std::make_unique<TextureStore>(gl_, caps_);
+    textures_ = std::make_unique<TextureStore>(gl_, caps_);
+    texture_bytes_ = 0;
     scene_ = &scene;
     plan_ = plan;
     while (gl_.GetError() != GL_NO_ERROR) {}  // what came before is not ours

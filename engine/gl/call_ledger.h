@@ -23,7 +23,7 @@ struct PassCalls {
 
 class CallLedger {
 public:
-    /// Index of the pass called `name`; the same name gives the same index. At most kMaxPasses names: more is a Mistake.
+    /// Index of the pass called `name`; the same name gives the same index. More than kMaxPasses names: Mistake.
     int pass_index(const char* name);
     [[nodiscard]] const std::vector<std::string>& pass_names() const { return names_; }
     [[nodiscard]] const PassCalls& pass(int index) const { return passes_[static_cast<std::size_t>(index)]; }

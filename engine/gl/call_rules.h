@@ -2,8 +2,8 @@
 // Only entry_points.cpp includes this. A rule is a pure function of Caps and the arguments, and returns the sentence
 // that is broken, or an empty string. Rules allocate only when they refuse.
 //
-// Not covered: what the driver itself reports as a GL error, and what needs a memory of state (a non-power-of-two texture
-// that repeats, a framebuffer whose texture does not render: Caps::renders tells that beforehand).
+// Not covered: what the driver itself reports as a GL error, and what needs a memory of state (a non-power-of-two
+// texture that repeats, a framebuffer whose texture does not render: Caps::renders tells that beforehand).
 #pragma once
 
 #include <GLES3/gl3.h>
@@ -194,7 +194,8 @@ struct ArgumentRule<Call::PixelStorei> {
         case kTextureCubeMapSeamless:
         case kProgramPointSize:
         case kFramebufferSrgb:
-            return caps.desktop ? std::string() : "capability " + hexadecimal(capability) + " exists on desktop GL alone";
+            return caps.desktop ? std::string()
+                                : "capability " + hexadecimal(capability) + " exists on desktop GL alone";
         default: return es30(caps) ? std::string() : "capability " + hexadecimal(capability) + " needs ES 3.0";
     }
 }
@@ -231,7 +232,8 @@ template <>
 struct ArgumentRule<Call::BeginQuery> {
     const Caps& caps;
     std::string operator()(GLenum target, GLuint) const {
-        if (target == GL_TIME_ELAPSED_EXT && !caps.timer_query) return "GL_TIME_ELAPSED needs GL_EXT_disjoint_timer_query";
+        if (target == GL_TIME_ELAPSED_EXT && !caps.timer_query)
+            return "GL_TIME_ELAPSED needs GL_EXT_disjoint_timer_query";
         if (target == kSamplesPassed && !caps.samples_passed) return "GL_SAMPLES_PASSED exists on desktop GL alone";
         return {};
     }
@@ -248,7 +250,8 @@ struct ArgumentRule<Call::ShaderSource> {
 };
 
 /// ES 2.0 section 3.7.1 and the extensions that widen it: the internal format is the format, and few types exist.
-[[nodiscard]] inline std::string broken_unsized_rule(const Caps& caps, GLenum internal_format, GLenum format, GLenum type) {
+[[nodiscard]] inline std::string broken_unsized_rule(const Caps& caps, GLenum internal_format, GLenum format,
+                                                     GLenum type) {
     if (internal_format != format) {
         return "internal format " + hexadecimal(internal_format) + " with format " + hexadecimal(format) +
                ": sized internal formats need ES 3.0";
@@ -288,8 +291,8 @@ struct ArgumentRule<Call::ShaderSource> {
 template <>
 struct ArgumentRule<Call::TexImage2D> {
     const Caps& caps;
-    std::string operator()(GLenum target, GLint, GLint internal_format, GLsizei width, GLsizei height, GLint, GLenum format,
-                           GLenum type, const void*) const {
+    std::string operator()(GLenum target, GLint, GLint internal_format, GLsizei width, GLsizei height, GLint,
+                           GLenum format, GLenum type, const void*) const {
         const bool cube = target >= GL_TEXTURE_CUBE_MAP_POSITIVE_X && target <= GL_TEXTURE_CUBE_MAP_NEGATIVE_Z;
         const int limit = cube ? caps.max_cube_map_size : caps.max_texture_size;
         const int size = width > height ? width : height;
@@ -301,7 +304,8 @@ struct ArgumentRule<Call::TexImage2D> {
         if (format == GL_DEPTH_COMPONENT && !caps.depth_texture) return "depth textures are not granted";
         // A core profile has no luminance and alpha textures, which every ES has.
         const bool legacy = format == GL_ALPHA || format == GL_LUMINANCE || format == GL_LUMINANCE_ALPHA;
-        if (legacy && caps.core_profile) return "format " + hexadecimal(format) + " does not exist in a desktop core profile";
+        if (legacy && caps.core_profile)
+            return "format " + hexadecimal(format) + " does not exist in a desktop core profile";
         return {};
     }
 };
@@ -334,7 +338,8 @@ struct ArgumentRule<Call::RenderbufferStorage> {
                 if (caps.sized_formats || caps.has_extension("GL_OES_rgb8_rgba8")) return {};
                 return "renderbuffers of format RGBA8 need ES 3.0 or GL_OES_rgb8_rgba8";
             default:
-                return es30(caps) ? std::string() : "renderbuffer format " + hexadecimal(internal_format) + " needs ES 3.0";
+                return es30(caps) ? std::string()
+                                  : "renderbuffer format " + hexadecimal(internal_format) + " needs ES 3.0";
         }
     }
 };

@@ -30,7 +30,8 @@ struct Parameter {
     std::string_view name;
 };
 
-/// "(GLenum target, const void* data)" as types and names. No parameter of ours is a function pointer, so commas separate.
+/// "(GLenum target, const void* data)" as types and names. No parameter of ours is a function pointer, so commas
+/// separate.
 std::vector<Parameter> parameters_of(int call) {
     std::string_view list = kParameterLists[static_cast<std::size_t>(call)];
     list = list.substr(1, list.size() - 2);
@@ -52,7 +53,8 @@ struct Enumerant {
 };
 
 // The enumerants that halfframe uses. 0 and 1 are several things at once and are not here: see enumerant().
-#define HALFFRAME_ENUMERANT(name) Enumerant{name, #name}
+#define HALFFRAME_ENUMERANT(name) \
+    Enumerant { name, #name }
 constexpr auto kEnumerants = std::to_array<Enumerant>({
     HALFFRAME_ENUMERANT(GL_ACTIVE_UNIFORMS),
     HALFFRAME_ENUMERANT(GL_ACTIVE_UNIFORM_MAX_LENGTH),
@@ -202,6 +204,33 @@ constexpr auto kEnumerants = std::to_array<Enumerant>({
 });
 #undef HALFFRAME_ENUMERANT
 
+/// What the number in a GLuint parameter of this call names.
+NameSpace name_space(Call call, std::string_view parameter) {
+    if (parameter == "buffer" || parameter == "buffers") return NameSpace::buffer;
+    if (parameter == "texture" || parameter == "textures") return NameSpace::texture;
+    if (parameter == "framebuffer" || parameter == "framebuffers") return NameSpace::framebuffer;
+    if (parameter == "renderbuffer" || parameter == "renderbuffers") return NameSpace::renderbuffer;
+    if (parameter == "array" || parameter == "arrays") return NameSpace::vertex_array;
+    if (parameter == "program" || parameter == "shader") return NameSpace::program;
+    if (parameter == "ids" || (parameter == "id" && call != Call::PushDebugGroup)) return NameSpace::query;
+    return NameSpace::none;
+}
+
+/// The kind behind the identifier of glObjectLabel.
+NameSpace labelled_space(std::int64_t identifier) {
+    switch (identifier) {
+        case GL_BUFFER_KHR: return NameSpace::buffer;
+        case GL_TEXTURE: return NameSpace::texture;
+        case GL_FRAMEBUFFER: return NameSpace::framebuffer;
+        case GL_RENDERBUFFER: return NameSpace::renderbuffer;
+        case GL_VERTEX_ARRAY_KHR: return NameSpace::vertex_array;
+        case GL_QUERY_KHR: return NameSpace::query;
+        case GL_SHADER_KHR:
+        case GL_PROGRAM_KHR: return NameSpace::program;
+        default: return NameSpace::none;
+    }
+}
+
 std::string quoted(std::string_view text) {
     std::string out = "\"";
     for (const char letter : text) {
@@ -228,19 +257,22 @@ std::string enumerant(Call call, std::string_view parameter, std::int64_t value)
     if (value == 0) return call == Call::BlendFuncSeparate ? "\"GL_ZERO\"" : "\"GL_NONE\"";
     if (value == 1) return call == Call::BlendFuncSeparate ? "\"GL_ONE\"" : "1";
     if (call == Call::ActiveTexture) return fmt::format("\"GL_TEXTURE{}\"", value - GL_TEXTURE0);
-    const auto* found = std::find_if(kEnumerants.begin(), kEnumerants.end(),
-                                     [&](const Enumerant& one) { return one.value == value; });
+    const auto* found =
+        std::find_if(kEnumerants.begin(), kEnumerants.end(), [&](const Enumerant& one) { return one.value == value; });
     return found != kEnumerants.end() ? quoted(found->name) : fmt::format("\"0x{:04X}\"", value);
 }
 
 std::string bits(Call call, std::int64_t value) {
-    if (call == Call::ClientWaitSync) return value == GL_SYNC_FLUSH_COMMANDS_BIT ? "\"GL_SYNC_FLUSH_COMMANDS_BIT\"" : "0";
+    if (call == Call::ClientWaitSync)
+        return value == GL_SYNC_FLUSH_COMMANDS_BIT ? "\"GL_SYNC_FLUSH_COMMANDS_BIT\"" : "0";
     if (call != Call::Clear) return fmt::format("{}", value);
     std::string out;
-    for (const auto& [bit, name] : {std::pair{GL_COLOR_BUFFER_BIT, "GL_COLOR_BUFFER_BIT"},
-                                    std::pair{GL_DEPTH_BUFFER_BIT, "GL_DEPTH_BUFFER_BIT"},
-                                    std::pair{GL_STENCIL_BUFFER_BIT, "GL_STENCIL_BUFFER_BIT"}}) {
-        if ((value & bit) != 0) out += (out.empty() ? "" : "|") + std::string(name);
+    for (const auto& [bit, name] :
+         {std::pair{GL_COLOR_BUFFER_BIT, "GL_COLOR_BUFFER_BIT"}, std::pair{GL_DEPTH_BUFFER_BIT, "GL_DEPTH_BUFFER_BIT"},
+          std::pair{GL_STENCIL_BUFFER_BIT, "GL_STENCIL_BUFFER_BIT"}}) {
+        if ((value & bit) == 0) continue;
+        if (!out.empty()) out += '|';
+        out += name;
     }
     return quoted(out);
 }
@@ -260,8 +292,12 @@ template <typename T, typename Write>
 std::string array(const void* data, std::int64_t count, Write write) {
     const auto* values = static_cast<const T*>(data);
     std::string out = "[";
-    for (std::int64_t i = 0; i < count; ++i) out += (i == 0 ? "" : ",") + write(values[i]);
-    return out + "]";
+    for (std::int64_t i = 0; i < count; ++i) {
+        if (i > 0) out += ',';
+        out += write(values[i]);
+    }
+    out += ']';
+    return out;
 }
 
 /// One call being written: its parameters beside their values.
@@ -270,6 +306,7 @@ struct Line {
     std::vector<Parameter> parameters;
     std::span<const TraceValue> values;
     int row_alignment;
+    TracedNames& names;
 
     [[nodiscard]] std::int64_t integer(std::string_view name) const {
         for (std::size_t i = 0; i < parameters.size(); ++i) {
@@ -284,8 +321,9 @@ struct Line {
         return nullptr;
     }
     [[nodiscard]] std::uint64_t pixel_bytes() const {
-        return transfer_bytes(static_cast<std::uint32_t>(integer("format")), static_cast<std::uint32_t>(integer("type")),
-                              static_cast<int>(integer("width")), static_cast<int>(integer("height")), row_alignment);
+        return transfer_bytes(static_cast<std::uint32_t>(integer("format")),
+                              static_cast<std::uint32_t>(integer("type")), static_cast<int>(integer("width")),
+                              static_cast<int>(integer("height")), row_alignment);
     }
 
     /// All strings of a glShaderSource as one block.
@@ -308,21 +346,24 @@ struct Line {
         const auto* begin = static_cast<const char*>(data);
         const bool counted = call == Call::ObjectLabel || call == Call::PushDebugGroup;
         const std::int64_t length = counted ? integer("length") : -1;
-        return quoted(length >= 0 ? std::string_view(begin, static_cast<std::size_t>(length)) : std::string_view(begin));
+        return quoted(length >= 0 ? std::string_view(begin, static_cast<std::size_t>(length))
+                                  : std::string_view(begin));
     }
 
     [[nodiscard]] std::string pointed(const Parameter& parameter, const void* data) const {
-        const auto whole = [](auto value) { return fmt::format("{}", value); };
         if (parameter.name == "offset") return fmt::format("{}", reinterpret_cast<std::uintptr_t>(data));
         if (data == nullptr) return "null";
         if (parameter.type == "const GLchar*") return text(data);
         if (parameter.type == "const GLchar* const*") return source();
         if (parameter.type == "const GLfloat*") {
             const int floats = call == Call::UniformMatrix4fv ? 16 : 4;
-            return array<GLfloat>(data, integer("count") * floats, [](GLfloat x) { return real(static_cast<double>(x)); });
+            return array<GLfloat>(data, integer("count") * floats,
+                                  [](GLfloat x) { return real(static_cast<double>(x)); });
         }
         if (parameter.type == "GLuint*" || parameter.type == "const GLuint*") {
-            return array<GLuint>(data, integer("n"), whole);
+            return array<GLuint>(data, integer("n"), [&](GLuint name) {
+                return fmt::format("{}", names.number(name_space(call, parameter.name), name));
+            });
         }
         if (parameter.type == "const GLenum*") {
             return array<GLenum>(data, integer("count"), [&](GLenum x) { return enumerant(call, parameter.name, x); });
@@ -338,6 +379,24 @@ struct Line {
         }
     }
 
+    /// A GLuint: the trace's number of an object, or the value itself.
+    [[nodiscard]] std::int64_t named(std::string_view parameter, std::int64_t value) const {
+        const bool label = call == Call::ObjectLabel && parameter == "name";
+        const NameSpace space = label ? labelled_space(integer("identifier")) : name_space(call, parameter);
+        return space == NameSpace::none ? value : names.number(space, static_cast<std::uint32_t>(value));
+    }
+
+    /// After a glDelete*: its names mean nothing any more.
+    void forget_deleted() const {
+        if (call == Call::DeleteProgram)
+            return names.forget(NameSpace::program, static_cast<std::uint32_t>(integer("program")));
+        if (call == Call::DeleteShader)
+            return names.forget(NameSpace::program, static_cast<std::uint32_t>(integer("shader")));
+        if (!std::string_view(call_name(number(call))).starts_with("glDelete") || parameters.size() != 2) return;
+        const auto* deleted = static_cast<const GLuint*>(values[1].pointer);
+        for (std::int64_t i = 0; i < integer("n"); ++i) names.forget(name_space(call, parameters[1].name), deleted[i]);
+    }
+
     [[nodiscard]] std::string argument(std::size_t index) const {
         const Parameter& parameter = parameters[index];
         const TraceValue& value = values[index];
@@ -346,6 +405,7 @@ struct Line {
         if (parameter.type == "GLenum" || parameter.name == "internal_format") {
             return enumerant(call, parameter.name, value.integer);
         }
+        if (parameter.type == "GLuint") return fmt::format("{}", named(parameter.name, value.integer));
         if (parameter.type == "GLbitfield") return bits(call, value.integer);
         if (parameter.type == "GLboolean") return value.integer != 0 ? "true" : "false";
         // Filters and wraps are enumerants from 0x2600 on; levels and ratios are small numbers.
@@ -356,16 +416,23 @@ struct Line {
     }
 };
 
-bool result_is_a_name(Call call) {
-    return call == Call::CreateShader || call == Call::CreateProgram;
-}
+bool result_is_a_name(Call call) { return call == Call::CreateShader || call == Call::CreateProgram; }
 
 }  // namespace
 
-void CallTrace::record(int call_index, std::string_view pass, std::span<const TraceValue> values, const TraceValue* result,
-                       int row_alignment) {
+int TracedNames::number(NameSpace space, std::uint32_t name) {
+    if (name == 0) return 0;
+    const auto [found, is_new] = numbers_.try_emplace({space, name}, 0);
+    if (is_new) found->second = ++last_[space];
+    return found->second;
+}
+
+void TracedNames::forget(NameSpace space, std::uint32_t name) { numbers_.erase({space, name}); }
+
+void CallTrace::record(int call_index, std::string_view pass, std::span<const TraceValue> values,
+                       const TraceValue* result, int row_alignment) {
     const auto call = static_cast<Call>(call_index);
-    const Line line{call, parameters_of(call_index), values, row_alignment};
+    const Line line{call, parameters_of(call_index), values, row_alignment, names_};
     std::string out = fmt::format("[{},\"{}\",[", quoted(pass), call_name(call_index));
     for (std::size_t i = 0; i < values.size(); ++i) {
         if (i > 0) out += ',';
@@ -376,9 +443,10 @@ void CallTrace::record(int call_index, std::string_view pass, std::span<const Tr
         syncs_.push_back(result->pointer);
         out += ',' + sync_index(result->pointer);
     } else if (result_is_a_name(call) && result != nullptr) {
-        out += fmt::format(",{}", result->integer);
+        out += fmt::format(",{}", names_.number(NameSpace::program, static_cast<std::uint32_t>(result->integer)));
     }
     out += ']';
+    line.forget_deleted();
     if (!lines_.empty()) lines_ += ",\n";
     lines_ += out;
 }

@@ -16,10 +16,10 @@
 namespace halfframe::gl {
 namespace {
 
-constexpr GLenum kContextProfileMask = 0x9126;   // desktop GL 3.2
-constexpr GLint kContextCoreProfileBit = 0x1;    // desktop GL 3.2
-constexpr int kDesktopFirstWithEs2Text = 41;     // desktop GL 4.1 contains ARB_ES2_compatibility
-constexpr int kDesktopFirstWithEs3Text = 43;     // desktop GL 4.3 contains ARB_ES3_compatibility
+constexpr GLenum kContextProfileMask = 0x9126;  // desktop GL 3.2
+constexpr GLint kContextCoreProfileBit = 0x1;   // desktop GL 3.2
+constexpr int kDesktopFirstWithEs2Text = 41;    // desktop GL 4.1 contains ARB_ES2_compatibility
+constexpr int kDesktopFirstWithEs3Text = 43;    // desktop GL 4.3 contains ARB_ES3_compatibility
 
 std::string get_string(EntryPoints& gl, GLenum pname) {
     const auto* text = reinterpret_cast<const char*>(gl.GetString(pname));
@@ -34,8 +34,7 @@ int get_integer(EntryPoints& gl, GLenum pname) {
 
 /// Errors of before are not ours, and ours must not be seen by who comes after. A lost context answers for ever: stop.
 void forget_errors(EntryPoints& gl) {
-    for (int i = 0; i < 16 && gl.GetError() != GL_NO_ERROR; ++i) {
-    }
+    for (int i = 0; i < 16 && gl.GetError() != GL_NO_ERROR; ++i) {}
 }
 
 struct Version {
@@ -55,7 +54,8 @@ Version parse_version(const std::string& text) {
     const bool dotted = first.ec == std::errc() && first.ptr != digits.data() + digits.size() && *first.ptr == '.';
     const auto second = dotted ? std::from_chars(first.ptr + 1, digits.data() + digits.size(), minor) : first;
     if (!dotted || second.ec != std::errc()) {
-        throw Error(Fault::context, "GL_VERSION is \"" + text + "\", which names no version: try another context or driver");
+        throw Error(Fault::context,
+                    "GL_VERSION is \"" + text + "\", which names no version: try another context or driver");
     }
     version.number = 10 * major + minor;
     return version;
@@ -101,9 +101,11 @@ void read_limits(EntryPoints& gl, Caps& caps) {
     caps.max_vertex_samplers = get_integer(gl, GL_MAX_VERTEX_TEXTURE_IMAGE_UNITS);
     caps.max_combined_samplers = get_integer(gl, GL_MAX_COMBINED_TEXTURE_IMAGE_UNITS);
     const bool later = caps.es_version >= 30 || caps.desktop;
-    if (later || caps.has_extension("GL_EXT_draw_buffers")) caps.max_draw_buffers = get_integer(gl, GL_MAX_DRAW_BUFFERS);
+    if (later || caps.has_extension("GL_EXT_draw_buffers"))
+        caps.max_draw_buffers = get_integer(gl, GL_MAX_DRAW_BUFFERS);
     if (later) caps.max_samples = get_integer(gl, GL_MAX_SAMPLES);
-    if (later || caps.has_extension("GL_OES_texture_3D")) caps.max_texture_3d_size = get_integer(gl, GL_MAX_3D_TEXTURE_SIZE);
+    if (later || caps.has_extension("GL_OES_texture_3D"))
+        caps.max_texture_3d_size = get_integer(gl, GL_MAX_3D_TEXTURE_SIZE);
 }
 
 void read_abilities(EntryPoints& gl, Caps& caps, const Version& version) {
@@ -122,7 +124,8 @@ void read_abilities(EntryPoints& gl, Caps& caps, const Version& version) {
     caps.depth_texture = es3 || caps.desktop || has("GL_OES_depth_texture");
     caps.npot_textures = es3 || caps.desktop || has("GL_OES_texture_npot");
     const bool binary_calls = es3 || desktop_since(41) || has("GL_OES_get_program_binary");
-    caps.program_binary = binary_calls && loaded(Call::ProgramBinary) && get_integer(gl, GL_NUM_PROGRAM_BINARY_FORMATS) > 0;
+    caps.program_binary =
+        binary_calls && loaded(Call::ProgramBinary) && get_integer(gl, GL_NUM_PROGRAM_BINARY_FORMATS) > 0;
     caps.fence_sync = loaded(Call::FenceSync) && (es3 || desktop_since(32));
     caps.timer_query = loaded(Call::GetQueryObjectui64v) && (desktop_since(33) || has("GL_EXT_disjoint_timer_query"));
     caps.samples_passed = loaded(Call::GetQueryObjectui64v) && desktop_since(33);
@@ -220,7 +223,8 @@ public:
     /// Extensions the profile keeps; without a list, those of the machine.
     [[nodiscard]] bool grants(const char* extension) const {
         if (!profile_.extensions) return caps_.has_extension(extension);
-        return std::find(profile_.extensions->begin(), profile_.extensions->end(), extension) != profile_.extensions->end();
+        return std::find(profile_.extensions->begin(), profile_.extensions->end(), extension) !=
+               profile_.extensions->end();
     }
     /// An ability that is core in ES 3.0 and that `extension` brings to ES 2.0.
     [[nodiscard]] bool keeps(bool ability, const char* extension) const {
@@ -304,8 +308,9 @@ void mask_formats(Caps& caps, const Mask& mask, const DeviceProfile& profile) {
 }  // namespace
 
 bool Caps::has_extension(const char* extension) const {
-    const auto found = std::lower_bound(extensions.begin(), extensions.end(), extension,
-                                        [](const std::string& one, const char* other) { return one.compare(other) < 0; });
+    const auto found =
+        std::lower_bound(extensions.begin(), extensions.end(), extension,
+                         [](const std::string& one, const char* other) { return one.compare(other) < 0; });
     return found != extensions.end() && *found == extension;
 }
 
@@ -329,8 +334,8 @@ Caps read_caps(EntryPoints& gl) {
         throw Error(Fault::context, "the desktop context \"" + caps.version +
                                         "\" does not run ES shaders: use an ES context, or GL 4.1 or later");
     }
-    caps.core_profile = version.desktop && version.number >= 32 &&
-                        (get_integer(gl, kContextProfileMask) & kContextCoreProfileBit) != 0;
+    caps.core_profile =
+        version.desktop && version.number >= 32 && (get_integer(gl, kContextProfileMask) & kContextCoreProfileBit) != 0;
     for (const char* rasteriser : {"llvmpipe", "softpipe", "SwiftShader", "Software Rasterizer"}) {
         caps.software = caps.software || caps.renderer.find(rasteriser) != std::string::npos;
     }

@@ -49,8 +49,8 @@ bool deletes(Call call) { return std::string_view(kRows[static_cast<std::size_t>
 bool granted(Call call, const Caps& caps) {
     if (deletes(call)) return true;
     switch (call) {
-        // Workaround core_profile_vertex_array: a desktop core profile draws nothing without a bound vertex array object,
-        // which ES 2.0 does not know. The renderer binds one there, under every mask.
+        // Workaround core_profile_vertex_array: a desktop core profile draws nothing without a bound vertex array
+        // object, which ES 2.0 does not know. The renderer binds one there, under every mask.
         case Call::BindVertexArray:
         case Call::GenVertexArrays: return caps.vertex_array_objects || caps.core_profile;
         case Call::GetProgramBinary:
@@ -181,7 +181,8 @@ EntryPoints::EntryPoints(const Loader& loader) {
             if (functions_[index] != nullptr) break;
         }
         if (functions_[index] == nullptr && kRows[index].since == Since::es20) {
-            throw Error(Fault::context, std::string("the context (") + std::string(text) + ") has no " + call_name(call) +
+            throw Error(Fault::context, std::string("the context (") + std::string(text) + ") has no " +
+                                            call_name(call) +
                                             ": halfframe needs OpenGL ES 2.0, or desktop GL 4.1 or later");
         }
         allowed_[index] = functions_[index] != nullptr;
@@ -205,7 +206,8 @@ const char* EntryPoints::current_pass() const { return ledger.pass_names()[stati
 
 void EntryPoints::begin_pass(const char* pass) {
     expect(pass_ == 0, [&] {
-        return std::string("pass \"") + pass + "\" was begun inside pass \"" + current_pass() + "\": passes do not nest";
+        return std::string("pass \"") + pass + "\" was begun inside pass \"" + current_pass() +
+               "\": passes do not nest";
     });
     pass_ = ledger.pass_index(pass);
     expect(pass_ != 0, [&] { return std::string("\"") + pass + "\" is the name for everything outside a pass"; });
@@ -228,21 +230,25 @@ std::string EntryPoints::trace_json() const {
 void EntryPoints::stop_trace() { trace_.reset(); }
 
 void EntryPoints::before(int call) {
-    if (!allowed_[static_cast<std::size_t>(call)]) [[unlikely]] refuse(call, needed(static_cast<Call>(call)));
+    if (!allowed_[static_cast<std::size_t>(call)]) [[unlikely]]
+        refuse(call, needed(static_cast<Call>(call)));
     ++ledger.pass(pass_).count[static_cast<std::size_t>(call)];
 }
 
 void EntryPoints::refuse(int call, const std::string& reason) const {
     const std::string device = restricted_ ? "device \"" + caps_.device + "\"" : "this context";
-    throw Mistake(std::string(call_name(call)) + " in pass \"" + current_pass() + "\" is refused by " + device + ": " + reason);
+    throw Mistake(std::string(call_name(call)) + " in pass \"" + current_pass() + "\" is refused by " + device + ": " +
+                  reason);
 }
 
 template <typename Result, typename Raw, typename Arguments>
 Result EntryPoints::run(int call, Raw&& raw, const Arguments& arguments) {
-    if (!trace_) [[likely]] return raw();
+    if (!trace_) [[likely]]
+        return raw();
     const auto record = [&](const TraceValue* result) {
         const auto values = std::apply(
-            [](const auto&... each) { return std::array<TraceValue, sizeof...(each)>{TraceValue::of(each)...}; }, arguments);
+            [](const auto&... each) { return std::array<TraceValue, sizeof...(each)>{TraceValue::of(each)...}; },
+            arguments);
         const int alignment = call == number(Call::ReadPixels) ? pack_alignment_ : unpack_alignment_;
         trace_->record(call, current_pass(), values, result, alignment);
     };
@@ -258,19 +264,23 @@ Result EntryPoints::run(int call, Raw&& raw, const Arguments& arguments) {
 }
 
 // Every call: refused or counted, then made, then traced. Nothing here allocates while no trace is open.
-#define HALFFRAME_GL(since, result, name, parameters, arguments)                                                         \
-    result EntryPoints::name parameters {                                                                                \
-        before(number(Call::name));                                                                                      \
-        if (restricted_) {                                                                                               \
-            const std::string broken_rule = ArgumentRule<Call::name>{caps_} arguments;                                   \
-            if (!broken_rule.empty()) [[unlikely]] refuse(number(Call::name), broken_rule);                              \
-        }                                                                                                                \
-        Accounting<Call::name>{{ledger.pass(pass_), unpack_alignment_, pack_alignment_}} arguments;                      \
-        const auto raw_call = [&]() -> result {                                                                          \
-            return reinterpret_cast<result(GL_APIENTRYP) parameters>(functions_[static_cast<std::size_t>(Call::name)])   \
-                arguments;                                                                                               \
-        };                                                                                                               \
-        return run<result>(number(Call::name), raw_call, std::tie arguments);                                            \
+#define HALFFRAME_GL(since, result, name, parameters, arguments)                                                       \
+    result EntryPoints::name parameters {                                                                              \
+        before(number(Call::name));                                                                                    \
+        if (restricted_) {                                                                                             \
+            const std::string broken_rule = ArgumentRule<Call::name>{caps_} arguments;                                 \
+            if (!broken_rule.empty()) [[unlikely]]                                                                     \
+                refuse(number(Call::name), broken_rule);                                                               \
+        }                                                                                                              \
+        Accounting<Call::name> {                                                                                       \
+            { ledger.pass(pass_), unpack_alignment_, pack_alignment_ }                                                 \
+        }                                                                                                              \
+        arguments;                                                                                                     \
+        const auto raw_call = [&]() -> result {                                                                        \
+            return reinterpret_cast<result(GL_APIENTRYP) parameters>(functions_[static_cast<std::size_t>(Call::name)]) \
+                arguments;                                                                                             \
+        };                                                                                                             \
+        return run<result>(number(Call::name), raw_call, std::tie arguments);                                          \
     }
 #include "engine/gl/entry_points.inl"
 #undef HALFFRAME_GL

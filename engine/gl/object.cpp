@@ -61,9 +61,9 @@ void label(EntryPoints& gl, const Object<kind>& object, const char* text) {
     if (object && gl.debug_labels()) gl.ObjectLabel(identifier(kind), object.name(), -1, text);
 }
 
-#define HALFFRAME_INSTANTIATE(kind)                            \
-    template class Object<kind>;                               \
-    template Object<kind> create<kind>(EntryPoints & gl);      \
+#define HALFFRAME_INSTANTIATE(kind)                       \
+    template class Object<kind>;                          \
+    template Object<kind> create<kind>(EntryPoints & gl); \
     template void label<kind>(EntryPoints&, const Object<kind>&, const char*);
 HALFFRAME_INSTANTIATE(Kind::buffer)
 HALFFRAME_INSTANTIATE(Kind::texture)

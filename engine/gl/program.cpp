@@ -26,8 +26,8 @@ int Program::uniform(std::string_view uniform_name) {
 }
 
 int Program::uniform_if_used(std::string_view uniform_name) {
-    const auto found = std::find_if(uniforms_.begin(), uniforms_.end(),
-                                    [&](const Uniform& one) { return one.name == uniform_name; });
+    const auto found =
+        std::find_if(uniforms_.begin(), uniforms_.end(), [&](const Uniform& one) { return one.name == uniform_name; });
     if (found == uniforms_.end()) return -1;
     found->claimed = true;
     return found->location;
@@ -38,7 +38,8 @@ void Program::expect_all_uniforms_claimed() const {
     std::copy_if(uniforms_.begin(), uniforms_.end(), std::back_inserter(unclaimed),
                  [](const Uniform& one) { return !one.claimed; });
     expect(unclaimed.empty(), [&] {
-        return "nobody sets these uniforms of program \"" + description_.name + "\", they would stay 0: " + names_of(unclaimed);
+        return "nobody sets these uniforms of program \"" + description_.name +
+               "\", they would stay 0: " + names_of(unclaimed);
     });
 }
 

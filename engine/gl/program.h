@@ -66,10 +66,11 @@ struct StageText {
 
 /// Puts a stage together: #version, precision defaults, defines (STAGE_VERTEX or STAGE_FRAGMENT, ARITHMETIC_HALF or
 /// ARITHMETIC_FULL, FRAGMENT_HIGHP, then the description's), dialect/<dialect>.glsl, then the file with its
-/// #include "path" lines resolved (each file once) and each `//@insert point` line replaced by the code of the insertions
-/// that name it, in order. The files of these insertions come, once each, at the line `//@insert_functions`. Pure.
+/// #include "path" lines resolved (each file once) and each `//@insert point` line replaced by the code of the
+/// insertions that name it, in order. The files of these insertions come, once each, at the line `//@insert_functions`. Pure.
 /// `files` are all there is to include. Throws Error(input) for a missing file; Mistake for an insertion whose point
-/// exists in neither stage, for files that include each other in a circle, and for full arithmetic without fragment highp.
+/// exists in neither stage, for files that include each other in a circle, and for full arithmetic without fragment
+/// highp.
 [[nodiscard]] StageText assemble_stage(const ProgramDescription& description, Stage stage,
                                        std::span<const ShaderFile> files = shader_files());
 
@@ -106,8 +107,8 @@ private:
 };
 
 /// Owns every program of a renderer, keyed by dialect + defines + text. Binaries go to disk where the driver allows,
-/// keyed by the driver string too; a bad or foreign file is ignored and rewritten; a folder that cannot be written costs
-/// one notice and nothing else.
+/// keyed by the driver string too; a bad or foreign file is ignored and rewritten; a folder that cannot be written
+/// costs one notice and nothing else.
 class ProgramCache {
 public:
     /// `folder` empty: nothing on disk. `caps` decides program_binary.

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -24,8 +25,8 @@ constexpr std::array<char, 8> kMagic = {'H', 'F', 'P', 'R', 'O', 'G', '0', '1'};
 struct FileHeader {
     std::array<char, 8> magic = kMagic;
     std::array<char, 32> key{};
-    std::uint64_t driver_size = 0;   // bytes
-    std::uint64_t binary_size = 0;   // bytes
+    std::uint64_t driver_size = 0;  // bytes
+    std::uint64_t binary_size = 0;  // bytes
     std::uint64_t binary_hash = 0;
     std::uint32_t binary_format = 0;
     std::uint32_t unused = 0;
@@ -97,8 +98,9 @@ Shader compile_stage(EntryPoints& gl, const ProgramDescription& description, Sta
     GLsizei written = 0;
     gl.GetShaderInfoLog(shader.name(), static_cast<GLsizei>(log.size()), &written, log.data());
     log.resize(static_cast<std::size_t>(written));
-    throw Error(Fault::check, fmt::format("the {} shader {} of {} does not compile:\n{}", is_vertex ? "vertex" : "fragment",
-                                          path, variant(description), translate_log(log, text)));
+    throw Error(Fault::check,
+                fmt::format("the {} shader {} of {} does not compile:\n{}", is_vertex ? "vertex" : "fragment", path,
+                            variant(description), translate_log(log, text)));
 }
 
 bool is_linked(EntryPoints& gl, GLuint program) {
@@ -143,7 +145,8 @@ bool had_error(EntryPoints& gl) {
 
 }  // namespace
 
-ProgramCache::ProgramCache(EntryPoints& gl, const Caps& caps, std::filesystem::path folder, std::span<const ShaderFile> files)
+ProgramCache::ProgramCache(EntryPoints& gl, const Caps& caps, std::filesystem::path folder,
+                           std::span<const ShaderFile> files)
     : gl_(gl),
       caps_(caps),
       folder_(std::move(folder)),
@@ -199,8 +202,8 @@ void ProgramCache::compile(Program& program, const StageText& vertex_text, const
         GLsizei written = 0;
         gl_.GetProgramInfoLog(name, static_cast<GLsizei>(log.size()), &written, log.data());
         log.resize(static_cast<std::size_t>(written));
-        throw Error(Fault::check, fmt::format("{} and {} of {} do not link:\n{}", description.vertex, description.fragment,
-                                              variant(description), log));
+        throw Error(Fault::check, fmt::format("{} and {} of {} do not link:\n{}", description.vertex,
+                                              description.fragment, variant(description), log));
     }
     gl_.DetachShader(name, vertex.name());
     gl_.DetachShader(name, fragment.name());
@@ -217,7 +220,8 @@ bool ProgramCache::load_binary(Program& program, const std::string& key) {
     const std::string content{std::istreambuf_iterator<char>(file), {}};
     if (const auto stored = parse_file(content, key, driver_)) {
         ProgramName name = create<Kind::program>(gl_);
-        gl_.ProgramBinary(name.name(), stored->format, stored->binary.data(), static_cast<GLsizei>(stored->binary.size()));
+        gl_.ProgramBinary(name.name(), stored->format, stored->binary.data(),
+                          static_cast<GLsizei>(stored->binary.size()));
         // An updated driver may refuse its own old binary, by an error or by not linking.
         if (!had_error(gl_) && is_linked(gl_, name.name())) {
             program.program_ = std::move(name);
@@ -256,9 +260,10 @@ void ProgramCache::save_binary(const Program& program, const std::string& key) {
     if (!error) return;
     std::error_code ignored;
     std::filesystem::remove(beside, ignored);
-    notice(fmt::format("the program cache folder {} cannot be written ({}): programs are compiled anew in every run; give "
-                       "another folder or make this one writable",
-                       folder_.string(), error.message()));
+    notice(
+        fmt::format("the program cache folder {} cannot be written ({}): programs are compiled anew in every run; give "
+                    "another folder or make this one writable",
+                    folder_.string(), error.message()));
 }
 
 void ProgramCache::notice(const std::string& sentence) {

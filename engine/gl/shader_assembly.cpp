@@ -23,7 +23,8 @@ std::string_view trimmed(std::string_view text) {
 }
 
 const ShaderFile* find_in(std::span<const ShaderFile> files, std::string_view path) {
-    const auto found = std::find_if(files.begin(), files.end(), [&](const ShaderFile& file) { return file.path == path; });
+    const auto found =
+        std::find_if(files.begin(), files.end(), [&](const ShaderFile& file) { return file.path == path; });
     return found != files.end() ? &*found : nullptr;
 }
 
@@ -108,8 +109,9 @@ private:
         if (std::find(written_.begin(), written_.end(), path) != written_.end()) return;
         const ShaderFile* file = find_in(files_, path);
         if (file == nullptr) {
-            throw Error(Fault::input, "there is no shader file \"" + path + "\", which " + wanted_by +
-                                          " asks for: paths are relative to shaders_es and listed in its CMakeLists.txt");
+            throw Error(Fault::input,
+                        "there is no shader file \"" + path + "\", which " + wanted_by +
+                            " asks for: paths are relative to shaders_es and listed in its CMakeLists.txt");
         }
         written_.push_back(path);
         stack_.push_back(path);
@@ -125,7 +127,8 @@ private:
         for_each_line(text, [&](std::string_view whole_line, int number) {
             expect(number < kLinesPerFile, "a shader file has more lines than the #line directives can tell apart");
             const std::string_view line = trimmed(whole_line);
-            const bool ends_branch = line.starts_with("#endif") || line.starts_with("#else") || line.starts_with("#elif");
+            const bool ends_branch =
+                line.starts_with("#endif") || line.starts_with("#else") || line.starts_with("#elif");
             if (line.starts_with("#if")) ++open_conditions;
             if (line.starts_with("#endif")) --open_conditions;
             if (write_replacement(line, number, path)) {
@@ -153,7 +156,8 @@ private:
         if (line == kInsertFunctionsWord) {
             has_functions_line_ = true;
             for (const Insertion& insertion : insertions_) {
-                if (insertion.file != nullptr) write_file(insertion.file, fmt::format("an insertion at {}", insertion.point));
+                if (insertion.file != nullptr)
+                    write_file(insertion.file, fmt::format("an insertion at {}", insertion.point));
             }
             return true;
         }
@@ -190,7 +194,8 @@ bool contains(const std::vector<std::string>& points, const char* point) {
 }
 
 /// The insertions whose point is in this stage.
-std::vector<Insertion> insertions_of(const ProgramDescription& description, Stage stage, std::span<const ShaderFile> files) {
+std::vector<Insertion> insertions_of(const ProgramDescription& description, Stage stage,
+                                     std::span<const ShaderFile> files) {
     if (description.insertions.empty()) return {};
     const Stage other_stage = stage == Stage::vertex ? Stage::fragment : Stage::vertex;
     Assembler scan(description, stage, files);
@@ -205,12 +210,13 @@ std::vector<Insertion> insertions_of(const ProgramDescription& description, Stag
             for (const auto* points : {&scan.points(), &other_scan.points()}) {
                 for (const std::string& point : *points) all += " " + point;
             }
-            return fmt::format("program \"{}\" has no insertion point \"{}\"; it has:{}", description.name, insertion.point,
-                               all.empty() ? " none" : all);
+            return fmt::format("program \"{}\" has no insertion point \"{}\"; it has:{}", description.name,
+                               insertion.point, all.empty() ? " none" : all);
         });
         expect(!in_this_stage || insertion.file == nullptr || scan.has_functions_line(), [&] {
-            return fmt::format("program \"{}\" needs a line //@insert_functions in the stage of the point \"{}\", for {}",
-                               description.name, insertion.point, insertion.file);
+            return fmt::format(
+                "program \"{}\" needs a line //@insert_functions in the stage of the point \"{}\", for {}",
+                description.name, insertion.point, insertion.file);
         });
         if (in_this_stage) here.push_back(insertion);
     }
@@ -263,7 +269,8 @@ std::string translate_log(std::string_view log, const StageText& stage) {
     std::string out;
     for_each_line(log, [&](std::string_view line, int) {
         const auto position = position_in(line);
-        const std::size_t file = position ? static_cast<std::size_t>(position->line / kLinesPerFile) : stage.files.size();
+        const std::size_t file =
+            position ? static_cast<std::size_t>(position->line / kLinesPerFile) : stage.files.size();
         if (file < stage.files.size()) {
             out += line.substr(0, position->begin);
             out += fmt::format("{}:{}", stage.files[file], position->line % kLinesPerFile);

@@ -1,0 +1,77 @@
+// The census finds no NaN and no inf in the built-in scenes, and finds a 0/0 that was planted.
+#include <gtest/gtest.h>
+
+#include "content/content.h"
+#include "engine/frame/renderer.h"
+#include "tests/frame/planning.h"
+#include "tests/harness/gl_fixture.h"
+
+namespace halfframe::tests {
+namespace {
+
+class Census : public harness::GlFixture {
+protected:
+    std::vector<CensusRow> count(const Scene& scene, const View& view, Wishes wishes, std::span<const EffectCard* const> cards) {
+        wishes.census = true;
+        Renderer renderer(gl(), caps(), {.effects = cards});
+        renderer.prepare(scene, plan_frame(scene, view, wishes, caps(), cards));
+        renderer.draw(view);
+        EXPECT_EQ(renderer.first_gl_error(), "");
+        return renderer.census();
+    }
+};
+
+TEST_F(Census, FindsNothingInTheBuiltInScenes) {
+    int frames = 0;
+    for (const content::BuiltInScene& built_in : content::built_in_scenes()) {
+        const Scene scene = built_in.make();
+        for (const Tier tier : {Tier::low, Tier::console, Tier::reference}) {
+            for (const Arithmetic arithmetic : {Arithmetic::half, Arithmetic::full}) {
+                for (const Camera& camera : scene.cameras) {
+                    for (const CensusRow& row : count(scene, view_of(camera, 128, 72), {.tier = tier, .arithmetic = arithmetic}, all_effects())) {
+                        EXPECT_GT(row.values, 0u);
+                        EXPECT_EQ(row.nan + row.inf, 0u) << built_in.name << ' ' << name(tier) << ' ' << name(arithmetic) << ' ' << row.target;
+                        ++frames;
+                    }
+                }
+            }
+        }
+    }
+    EXPECT_GT(frames, 12);
+}
+
+// A material effect that divides nothing by nothing where the surface has it: only a census can see it, because an 8-bit
+// target stores NaN as 0.
+constexpr gl::Insertion kPlanted[] = {{"surface.color", nullptr, "color *= (base_color.a - base_color.a) / (base_color.a - base_color.a);"}};
+const EffectCard kPlantedNan{
+    .name = "planted_nan",
+    .purpose = "Plants a 0/0.",
+    .sources = "none",
+    .kind = EffectKind::material,
+    .called_for_by = "always",
+    .budget_row = "",
+    .tiers = {},
+    .called_for = [](const PlanContext&) { return Demand{true, "this test plants a 0/0"}; },
+    .add_passes = nullptr,
+    .insertions = [](const PlanContext&) { return std::span<const gl::Insertion>(kPlanted); },
+    .prepare = nullptr,
+};
+
+TEST_F(Census, FindsAPlantedNan) {
+    std::vector<const EffectCard*> cards(all_effects().begin(), all_effects().end());
+    cards.push_back(&kPlantedNan);
+    const auto rows = count(square_scene(), square_view(), {.tier = Tier::console}, cards);
+    std::uint64_t found = 0;
+    for (const CensusRow& row : rows) {
+        if (row.target == "scene_color") found += row.nan;
+    }
+    EXPECT_GT(found, 100u) << "the square covers a few hundred pixels";
+    for (const CensusRow& row : rows) {
+        if (row.target == "display") {
+            EXPECT_EQ(row.nan, 0u) << "the tone map takes NaN out before the curve";
+        }
+    }
+}
+
+}  // namespace
+}  // namespace halfframe::tests

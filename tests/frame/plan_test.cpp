@@ -1,0 +1,142 @@
+// plan_frame() as a pure function: which effects, which passes, which formats, and why.
+#include <gtest/gtest.h>
+
+#include "engine/error.h"
+#include "tests/frame/planning.h"
+
+namespace halfframe::tests {
+namespace {
+
+using gl::PixelFormat;
+using Names = std::vector<std::string>;
+
+std::string refusal(const Scene& scene, const Wishes& wishes, const gl::Caps& caps = able_caps()) {
+    try {
+        (void)plan(scene, wishes, caps);
+    } catch (const Error& error) {
+        EXPECT_EQ(error.fault(), Fault::usage);
+        return error.what();
+    }
+    ADD_FAILURE() << "the wish was not refused";
+    return {};
+}
+
+TEST(Plan, DrawsLightThenMapsIt) {
+    const FramePlan frame = plan(square_scene());
+    EXPECT_EQ(pass_names(frame), (Names{"surface_opaque", "tone_map"}));
+    EXPECT_EQ(frame.storage, PixelFormat::rgba16f);
+    EXPECT_EQ(frame.passes[0].start_color, StartAction::clear);
+    EXPECT_EQ(frame.passes[0].start_depth, StartAction::clear);
+    EXPECT_EQ(frame.passes[1].start_color, StartAction::discard) << "a full-screen pass covers every pixel";
+    EXPECT_EQ(frame.targets[static_cast<std::size_t>(frame.display)].name, "display");
+    EXPECT_FALSE(broken_rule(frame, able_caps()));
+}
+
+TEST(Plan, PutsTheSkyBetweenOpaqueAndTransparent) {
+    Scene scene = square_scene();
+    scene.sky = Sky{};
+    scene.materials.push_back({.alpha_mode = AlphaMode::blend});
+    scene.surfaces.push_back({.name = "pane", .mesh = 0, .material = 1, .world_from_local = glm::mat4(1.0f), .dynamic = false});
+    EXPECT_EQ(pass_names(plan(scene)), (Names{"surface_opaque", "sky", "surface_transparent", "tone_map"}));
+    EXPECT_EQ(pass_names(plan(scene, {.tier = Tier::low})), (Names{"surface_opaque", "sky", "surface_transparent"}));
+}
+
+TEST(Plan, LowStoresDisplayValuesInOneTarget) {
+    const FramePlan frame = plan(square_scene(), {.tier = Tier::low});
+    EXPECT_EQ(frame.storage, PixelFormat::rgba8);
+    EXPECT_EQ(frame.targets.size(), 2u);
+    EXPECT_DOUBLE_EQ(frame.bytes_per_pixel(), 6.0) << "RGBA8 and 16-bit depth";
+    ASSERT_TRUE(frame.find("tone_map")->in);
+    ASSERT_EQ(frame.find("tone_map")->insertions.size(), 1u) << "the surface shader maps its own light";
+}
+
+TEST(Plan, TakesTheHighestStorageThatRenders) {
+    const Scene scene = square_scene();
+    gl::Caps caps = able_caps();
+    EXPECT_EQ(plan(scene, {}, caps).storage, PixelFormat::rgba16f);
+    EXPECT_TRUE(plan(scene, {}, caps).notices.empty());
+    caps = without(caps, {PixelFormat::rgba32f, PixelFormat::rgba16f});
+    EXPECT_EQ(plan(scene, {}, caps).storage, PixelFormat::r11g11b10f);
+    EXPECT_EQ(plan(scene, {}, caps).notices.size(), 1u) << "a lower rung is said";
+    caps = without(caps, {PixelFormat::r11g11b10f});
+    EXPECT_EQ(plan(scene, {}, caps).storage, PixelFormat::rgb10_a2);
+    caps = without(caps, {PixelFormat::rgb10_a2});
+    EXPECT_EQ(plan(scene, {}, caps).storage, PixelFormat::rgba8);
+    EXPECT_EQ(plan(scene, {.tier = Tier::reference}, able_caps()).storage, PixelFormat::rgba32f);
+}
+
+TEST(Plan, ChoosesTheBestTierTheDeviceRuns) {
+    EXPECT_EQ(plan(square_scene()).tier, Tier::console);
+    EXPECT_EQ(plan(square_scene(), {}, poor_caps()).tier, Tier::low);
+    EXPECT_EQ(plan(square_scene(), {}, poor_caps()).arithmetic, Arithmetic::half);
+}
+
+TEST(Plan, RefusesWhatTheDeviceCannot) {
+    EXPECT_NE(refusal(square_scene(), {.tier = Tier::console}, poor_caps()).find("needs OpenGL ES 3.0"), std::string::npos);
+    EXPECT_NE(refusal(square_scene(), {.effect_tiers = {{"sky", Tier::reference}}}, poor_caps()).find("ES 3.0"), std::string::npos);
+    EXPECT_NE(refusal(square_scene(), {.arithmetic = Arithmetic::full}, poor_caps()).find("highp"), std::string::npos);
+    EXPECT_NE(refusal(square_scene(), {.storage = PixelFormat::rgba16f}, poor_caps()).find("RGBA16F"), std::string::npos);
+    EXPECT_NE(refusal(square_scene(), {.effect_tiers = {{"rain_of_frogs", Tier::low}}}).find("rain_of_frogs"), std::string::npos);
+    EXPECT_NE(refusal(square_scene(), {.census = true}, poor_caps()).find("RGBA32F"), std::string::npos);
+}
+
+TEST(Plan, ArithmeticIsFullOnSoftwareAndHalfElsewhere) {
+    gl::Caps caps = able_caps();
+    EXPECT_EQ(plan(square_scene(), {}, caps).arithmetic, Arithmetic::half);
+    caps.software = true;
+    EXPECT_EQ(plan(square_scene(), {}, caps).arithmetic, Arithmetic::full);
+}
+
+TEST(Plan, EveryEffectSaysWhy) {
+    for (const Scene& scene : {square_scene(), Scene{.name = "nothing"}}) {
+        const FramePlan frame = plan(scene);
+        ASSERT_EQ(frame.effects.size(), all_effects().size());
+        for (const EffectDecision& decision : frame.effects) EXPECT_GT(decision.why.size(), 10u) << decision.effect;
+    }
+}
+
+TEST(Plan, AnEmptySceneIsOneClear) {
+    const FramePlan frame = plan({.name = "nothing"});
+    EXPECT_EQ(pass_names(frame), Names{"clear"});
+    for (const EffectDecision& decision : frame.effects) EXPECT_FALSE(decision.in) << decision.effect;
+    EXPECT_DOUBLE_EQ(frame.bytes_per_pixel(), 4.0);
+    EXPECT_FALSE(broken_rule(frame, able_caps()));
+}
+
+TEST(Plan, ASwitchOverrulesDemandAndSaysSo) {
+    Scene scene = square_scene();
+    scene.sky = Sky{};
+    const FramePlan without_sky = plan(scene, {.effect_switches = {{"sky", false}}});
+    EXPECT_FALSE(without_sky.find("sky")->in);
+    EXPECT_NE(without_sky.find("sky")->why.find("by hand"), std::string::npos);
+    const FramePlan with_prepass = plan(scene, {.effect_switches = {{"depth_prepass", true}}});
+    EXPECT_EQ(with_prepass.passes.front().name, "depth_prepass");
+    EXPECT_NE(refusal(scene, {.effect_switches = {{"tone_map", false}}}).find("tone_map"), std::string::npos);
+}
+
+TEST(Plan, AStorageAskedForByNameMayExceedTheTiersLimitAndSaysSo) {
+    const FramePlan frame = plan(square_scene(), {.tier = Tier::low, .storage = PixelFormat::rgba32f});
+    EXPECT_FALSE(broken_rule(frame, able_caps()));
+    ASSERT_EQ(frame.notices.size(), 1u);
+    EXPECT_NE(frame.notices[0].find("22.0 bytes a pixel"), std::string::npos) << frame.notices[0];
+}
+
+TEST(Plan, TheCensusMakesEveryColourTargetFloat) {
+    const FramePlan frame = plan(square_scene(), {.census = true});
+    for (const Target& target : frame.targets) {
+        EXPECT_TRUE(gl::is_depth(target.format) || target.format == PixelFormat::rgba32f) << target.name;
+    }
+    EXPECT_EQ(frame.storage, PixelFormat::rgba16f) << "the shaders stay those of the frame that is examined";
+}
+
+TEST(Plan, IsTheSameEveryTime) {
+    Scene scene = square_scene();
+    scene.sky = Sky{};
+    const FramePlan a = plan(scene), b = plan(scene);
+    EXPECT_EQ(pass_names(a), pass_names(b));
+    EXPECT_EQ(a.target_bytes(), b.target_bytes());
+    for (std::size_t i = 0; i < a.effects.size(); ++i) EXPECT_EQ(a.effects[i].why, b.effects[i].why);
+}
+
+}  // namespace
+}  // namespace halfframe::tests

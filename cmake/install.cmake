@@ -36,8 +36,8 @@ endforeach()
 
 install(TARGETS halfframe_engine halfframe_platform halfframe_content EXPORT halfframe
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-if(TARGET halfframe)
-  install(TARGETS halfframe RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+if(TARGET halfframe_command)
+  install(TARGETS halfframe_command RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/halfframe)
@@ -61,4 +61,4 @@ install(FILES ${PROJECT_BINARY_DIR}/package/halfframe.pc DESTINATION ${CMAKE_INS
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/content/budgets ${PROJECT_SOURCE_DIR}/content/devices
         DESTINATION ${HALFFRAME_DATA_FOLDER} FILES_MATCHING PATTERN "*.json")
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md
-        DESTINATION ${CMAKE_INSTALL_DOCDIR} OPTIONAL)
+        DESTINATION ${CMAKE_INSTALL_DOCDIR})

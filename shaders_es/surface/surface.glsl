@@ -40,11 +40,11 @@ float blinn_lobe(FULL vec3 n, FULL vec3 h, float power) {
 
 // Smooth fall to 0 at the light's range; 1 at 1 m. distance_squared [m^2], inverse_range_squared [1/m^2].
 // Window: B. Karis, "Real Shading in Unreal Engine 4", SIGGRAPH 2013. FULL: a distance of 256 m squared overflows half.
-// Nearer than 0.1 m it stays at 100, so that a lamp inside a surface cannot overflow.
+// Nearer than 1/316 of the range it grows no more, so that a lamp inside a surface stays finite in any unit of length.
 float distance_falloff(FULL float distance_squared, FULL float inverse_range_squared) {
     FULL float ratio = distance_squared * inverse_range_squared;
     FULL float window = clamp(1.0 - ratio * ratio, 0.0, 1.0);
-    return window * window / max(distance_squared, 0.01);
+    return window * window * inverse_range_squared / max(ratio, 1e-5);
 }
 
 // Spot cone: 0 outside, 1 inside, smooth between. cos_scale = 1 / (cos inner - cos outer).

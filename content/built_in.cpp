@@ -1,0 +1,27 @@
+// The list of built-in scenes, and the empty one.
+#include "content/built_in.h"
+
+#include "content/content.h"
+
+namespace halfframe::content {
+
+Scene make_empty() {
+    Scene scene;
+    scene.name = "empty";
+    Camera camera = camera_looking({0.0f, 0.0f, 3.0f}, glm::vec3(0.0f), 0.8f, Box{glm::vec3(-1.0f), glm::vec3(1.0f)});
+    camera.name = "front";
+    scene.cameras.push_back(camera);
+    return scene;
+}
+
+const std::vector<BuiltInScene>& built_in_scenes() {
+    static const std::vector<BuiltInScene> kScenes{
+        {"furnace", "three spheres in constant light: reads off the energy that comes back", &make_furnace},
+        {"test_room", "a small room with one of everything: textures, mask, glass, metal, and all kinds of lights",
+         &make_test_room},
+        {"empty", "nothing at all: what a frame costs before anything is drawn", &make_empty},
+    };
+    return kScenes;
+}
+
+}  // namespace halfframe::content

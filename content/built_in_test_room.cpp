@@ -1,0 +1,198 @@
+// The test room: 6 x 3 x 4 m, one of everything that the surface effect knows. Blue-grey and desaturated, with hints of
+// brighter blue, purple and red, as the talk's palette has it.
+#include "content/built_in.h"
+
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "content/room_textures.h"
+#include "content/shapes.h"
+
+namespace halfframe::content {
+namespace {
+
+// The room [m]: x from -3 to 3, y from 0 to 3, z from -2 to 2.
+constexpr float kHalfWidth = 3.0f;
+constexpr float kHeight = 3.0f;
+constexpr float kHalfDepth = 2.0f;
+// The opening in the wall at +X [m]: z from -0.8 to 0.8, y from 0.9 to 2.3.
+constexpr float kOpeningHalfWidth = 0.8f;
+constexpr float kOpeningBottom = 0.9f;
+constexpr float kOpeningTop = 2.3f;
+
+const glm::vec3 kUp{0.0f, 1.0f, 0.0f};
+
+Material paint(const char* name, const glm::vec3& linear, float roughness) {
+    Material material;
+    material.name = name;
+    material.base_color = glm::vec4(linear, 1.0f);
+    material.metallic = 0.0f;
+    material.roughness = roughness;
+    return material;
+}
+
+Material metal(const char* name, const glm::vec3& specular, float roughness) {
+    Material material = paint(name, specular, roughness);
+    material.metallic = 1.0f;
+    return material;
+}
+
+Material neon(const char* name, const glm::vec3& radiance) {
+    Material material = paint(name, glm::vec3(0.05f), 0.6f);
+    material.emissive = radiance;
+    return material;
+}
+
+glm::mat4 at(const glm::vec3& position, float yaw_rad = 0.0f) {
+    return glm::rotate(glm::translate(glm::mat4(1.0f), position), yaw_rad, kUp);
+}
+
+/// Lies flat, its front upwards (facing +1) or downwards (-1).
+glm::mat4 lying_at(const glm::vec3& position, float facing) {
+    return glm::rotate(glm::translate(glm::mat4(1.0f), position), -facing * glm::half_pi<float>(),
+                       glm::vec3(1.0f, 0.0f, 0.0f));
+}
+
+void add_floor_and_ceiling(Scene& scene, int plaster) {
+    TileImages tiles = floor_tiles(256);
+    Material floor = paint("floor tiles", glm::vec3(1.0f), 1.0f);
+    floor.metallic = 1.0f;  // the texture says 0
+    floor.base_color_texture.image = add_image(scene, std::move(tiles.base_color));
+    floor.normal_texture.image = add_image(scene, std::move(tiles.normal));
+    floor.metallic_roughness_texture.image = add_image(scene, std::move(tiles.metallic_roughness));
+    const glm::vec2 size_m(2.0f * kHalfWidth, 2.0f * kHalfDepth);
+    const int tiled = add_mesh(scene, quad(size_m, size_m), "floor");  // a tile is half a metre
+    const int ceiling = add_mesh(scene, quad(size_m), "ceiling");
+    add_surface(scene, "floor", tiled, add_material(scene, floor), lying_at(glm::vec3(0.0f), 1.0f));
+    add_surface(scene, "ceiling", ceiling, plaster, lying_at({0.0f, kHeight, 0.0f}, -1.0f));
+}
+
+/// The wall at +X as four pieces around its opening.
+void add_opening_wall(Scene& scene, int plaster) {
+    struct Piece {
+        glm::vec2 size_m;
+        float y;
+        float z;
+    };
+    const float side = kHalfDepth - kOpeningHalfWidth;
+    const float between = kOpeningTop - kOpeningBottom;
+    const float middle = 0.5f * (kOpeningTop + kOpeningBottom);
+    for (const Piece& piece : {Piece{{2.0f * kHalfDepth, kOpeningBottom}, 0.5f * kOpeningBottom, 0.0f},
+                               Piece{{2.0f * kHalfDepth, kHeight - kOpeningTop}, 0.5f * (kHeight + kOpeningTop), 0.0f},
+                               Piece{{side, between}, middle, -kOpeningHalfWidth - 0.5f * side},
+                               Piece{{side, between}, middle, kOpeningHalfWidth + 0.5f * side}}) {
+        const int mesh = add_mesh(scene, quad(piece.size_m), "opening wall");
+        add_surface(scene, "opening wall", mesh, plaster, at({kHalfWidth, piece.y, piece.z}, -glm::half_pi<float>()));
+    }
+    Material glass = paint("glass", glm::vec3(0.35f, 0.45f, 0.60f), 0.08f);
+    glass.base_color.a = 0.25f;
+    glass.alpha_mode = AlphaMode::blend;
+    glass.double_sided = true;
+    const int pane = add_mesh(scene, quad({2.0f * kOpeningHalfWidth, between}), "pane");
+    add_surface(scene, "pane", pane, add_material(scene, glass),
+                at({kHalfWidth, middle, 0.0f}, -glm::half_pi<float>()));
+}
+
+void add_walls(Scene& scene, int plaster) {
+    const int long_wall = add_mesh(scene, quad({2.0f * kHalfWidth, kHeight}), "long wall");
+    const int short_wall = add_mesh(scene, quad({2.0f * kHalfDepth, kHeight}), "short wall");
+    const float y = 0.5f * kHeight;
+    add_surface(scene, "back wall", long_wall, plaster, at({0.0f, y, -kHalfDepth}));
+    add_surface(scene, "front wall", long_wall, plaster, at({0.0f, y, kHalfDepth}, glm::pi<float>()));
+    add_surface(scene, "door wall", short_wall, plaster, at({-kHalfWidth, y, 0.0f}, glm::half_pi<float>()));
+    add_opening_wall(scene, plaster);
+}
+
+void add_props(Scene& scene) {
+    const int ball = add_mesh(scene, sphere(0.4f), "ball");
+    const int crate = add_mesh(scene, box(glm::vec3(0.7f)), "crate");
+    const int column = add_mesh(scene, cylinder(0.22f, kHeight), "column");
+    const int panel = add_mesh(scene, quad({1.2f, 1.6f}, {3.0f, 4.0f}), "grille panel");
+    const int tube = add_mesh(scene, box({0.05f, 0.05f, 1.6f}), "neon tube");
+
+    // Metals have sRGB 186..255 as specular in the talk: linear 0.49..1.
+    add_surface(scene, "metal ball", ball, add_material(scene, metal("steel", {0.62f, 0.61f, 0.60f}, 0.25f)),
+                at({-0.3f, 0.4f, -0.6f}));
+    add_surface(scene, "blue ball", ball, add_material(scene, paint("blue lacquer", {0.06f, 0.13f, 0.42f}, 0.30f)),
+                at({0.9f, 0.4f, 0.3f}));
+    add_surface(scene, "crate", crate, add_material(scene, paint("red tarpaulin", {0.38f, 0.05f, 0.05f}, 0.75f)),
+                at({-1.7f, 0.35f, -1.2f}, 0.4f));
+    add_surface(scene, "column", column, add_material(scene, paint("concrete", {0.24f, 0.25f, 0.28f}, 0.85f)),
+                at({1.9f, 0.5f * kHeight, -1.3f}));
+
+    Material bars = metal("grille", glm::vec3(1.0f), 0.5f);
+    bars.base_color_texture.image = add_image(scene, grille(128, 4));
+    bars.alpha_mode = AlphaMode::mask;
+    bars.double_sided = true;
+    add_surface(scene, "grille panel", panel, add_material(scene, bars), at({-1.2f, 0.8f, 0.9f}, 0.6f));
+
+    add_surface(scene, "violet neon", tube, add_material(scene, neon("violet neon", {1.1f, 0.7f, 3.2f})),
+                at({1.2f, 2.5f, -kHalfDepth + 0.06f}, glm::half_pi<float>()));
+    add_surface(scene, "red neon", tube, add_material(scene, neon("red neon", {2.6f, 0.25f, 0.2f})),
+                at({-kHalfWidth + 0.06f, 2.2f, -0.4f}));
+}
+
+void add_lights(Scene& scene) {
+    Light sun;
+    sun.kind = LightKind::sun;
+    sun.name = "sun";
+    sun.color = glm::vec3(0.75f, 0.72f, 0.68f);
+    sun.direction = glm::normalize(glm::vec3(-0.80f, -0.55f, -0.22f));  // in through the opening
+    scene.lights.push_back(sun);
+
+    Light warm;
+    warm.name = "warm lamp";
+    warm.position = {-2.2f, 2.1f, 0.9f};
+    warm.color = glm::vec3(1.00f, 0.58f, 0.32f);
+    warm.range_m = 5.0f;
+    scene.lights.push_back(warm);
+
+    Light cool;
+    cool.name = "violet neon";
+    cool.position = {1.2f, 2.4f, -1.7f};
+    cool.color = glm::vec3(0.50f, 0.42f, 1.30f);
+    cool.range_m = 5.0f;
+    scene.lights.push_back(cool);
+
+    Light spot;
+    spot.kind = LightKind::spot;
+    spot.name = "ceiling spot";
+    spot.position = {0.3f, 2.9f, 0.0f};
+    spot.direction = {0.0f, -1.0f, 0.0f};
+    spot.color = glm::vec3(3.0f, 3.1f, 3.4f);
+    spot.range_m = 6.0f;
+    spot.inner_cone_rad = 0.30f;
+    spot.outer_cone_rad = 0.60f;
+    scene.lights.push_back(spot);
+
+    scene.ambient = glm::vec3(0.050f, 0.058f, 0.075f);
+    scene.sky = Sky{{0.30f, 0.36f, 0.46f}, {0.58f, 0.63f, 0.70f}, {0.20f, 0.21f, 0.23f}};
+}
+
+void add_cameras(Scene& scene) {
+    const Box box = world_box(scene);
+    Camera door = camera_looking({-2.7f, 1.6f, 1.6f}, {0.9f, 1.0f, -0.6f}, 1.0f, box);
+    door.name = "door";
+    Camera corner = camera_looking({2.6f, 2.3f, 1.7f}, {-0.8f, 0.7f, -0.7f}, 1.0f, box);
+    corner.name = "corner";
+    for (Camera* camera : {&door, &corner}) {
+        camera->near_m = 0.05f;  // nearest thing to a camera is the wall behind it
+        scene.cameras.push_back(*camera);
+    }
+}
+
+}  // namespace
+
+Scene make_test_room() {
+    Scene scene;
+    scene.name = "test_room";
+    const int plaster = add_material(scene, paint("plaster", {0.27f, 0.29f, 0.33f}, 0.9f));
+    add_floor_and_ceiling(scene, plaster);
+    add_walls(scene, plaster);
+    add_props(scene);
+    add_lights(scene);
+    add_cameras(scene);
+    return scene;
+}
+
+}  // namespace halfframe::content

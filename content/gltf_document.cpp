@@ -1,0 +1,231 @@
+// From a file to parsed JSON: GLB header and chunks, version, extensions.
+#include "content/gltf_document.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+#include <fmt/format.h>
+
+#include "engine/error.h"
+
+namespace halfframe::content {
+namespace {
+
+constexpr std::uint32_t kJsonChunk = 0x4E4F534A;    // "JSON"
+constexpr std::uint32_t kBinaryChunk = 0x004E4942;  // "BIN\0"
+constexpr std::size_t kGlbHeaderBytes = 12;
+constexpr std::size_t kChunkHeaderBytes = 8;
+
+// Extensions whose effect on the picture is complete here.
+constexpr std::array<std::string_view, 2> kSupportedExtensions{"KHR_materials_emissive_strength",
+                                                               "KHR_mesh_quantization"};
+
+constexpr const char* kAdvice = "check the file with the glTF validator or export it again";
+
+std::uint32_t little_endian_32(std::string_view bytes, std::size_t at) {
+    std::uint32_t result = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+        result |= static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[at + i])) << (8 * i);
+    }
+    return result;
+}
+
+[[noreturn]] void bad_glb(const GltfDocument& document, std::size_t byte, const std::string& what) {
+    throw Error(Fault::input,
+                fmt::format("{}: byte {}: {}; {}", document.source.file, byte, what, document.source.advice));
+}
+
+[[noreturn]] void is_version_1(const GltfDocument& document, const std::string& place) {
+    throw Error(Fault::input, fmt::format("{}: {}: this is glTF 1.0 and only glTF 2.0 is read; convert it, for example "
+                                          "with gltf-pipeline or by exporting it again",
+                                          document.source.file, place));
+}
+
+/// Length of the GLB after comparing it with the length of the file.
+std::size_t checked_glb_length(GltfDocument& document, std::string_view bytes) {
+    if (bytes.size() < kGlbHeaderBytes) {
+        bad_glb(document, bytes.size(), "the GLB header is cut off");
+    }
+    const std::uint32_t version = little_endian_32(bytes, 4);
+    if (version == 1) {
+        is_version_1(document, "byte 4");
+    }
+    if (version != 2) {
+        bad_glb(document, 4, fmt::format("the GLB has version {} and only version 2 is read", version));
+    }
+    const std::size_t length = little_endian_32(bytes, 8);
+    if (length > bytes.size()) {
+        bad_glb(document, 8, fmt::format("the GLB says it has {} bytes but the file has {}", length, bytes.size()));
+    }
+    if (length < kGlbHeaderBytes + kChunkHeaderBytes) {
+        bad_glb(document, 8, fmt::format("the GLB says it has {} bytes, too few for one chunk", length));
+    }
+    if (length < bytes.size()) {
+        document.notices.push_back(
+            fmt::format("{} bytes after the end of the GLB were left out.", bytes.size() - length));
+    }
+    return length;
+}
+
+/// Takes the JSON text and the binary chunk out of a GLB.
+std::string_view split_glb(GltfDocument& document, std::string_view bytes) {
+    const std::size_t length = checked_glb_length(document, bytes);
+    std::string_view json;
+    std::size_t at = kGlbHeaderBytes;
+    for (int chunk = 0; at < length; ++chunk) {
+        if (length - at < kChunkHeaderBytes) {
+            bad_glb(document, at, "the header of a chunk is cut off");
+        }
+        const std::size_t chunk_bytes = little_endian_32(bytes, at);
+        const std::uint32_t type = little_endian_32(bytes, at + 4);
+        if (chunk_bytes > length - at - kChunkHeaderBytes) {
+            bad_glb(document, at,
+                    fmt::format("chunk {} says it has {} bytes but {} are left", chunk, chunk_bytes,
+                                length - at - kChunkHeaderBytes));
+        }
+        if (chunk_bytes % 4 != 0) {
+            bad_glb(document, at, fmt::format("chunk {} has {} bytes, not a multiple of 4", chunk, chunk_bytes));
+        }
+        const std::string_view content = bytes.substr(at + kChunkHeaderBytes, chunk_bytes);
+        if ((chunk == 0) != (type == kJsonChunk)) {
+            bad_glb(document, at + 4, chunk == 0 ? "the first chunk is not JSON" : "there is a second JSON chunk");
+        }
+        if (chunk == 0) {
+            json = content;
+        } else if (type == kBinaryChunk) {
+            if (chunk != 1) {
+                bad_glb(document, at + 4, "the binary chunk is not the second one");
+            }
+            document.binary_chunk = std::string(content);
+        }
+        at += kChunkHeaderBytes + chunk_bytes;
+    }
+    return json;
+}
+
+struct Version {
+    int major = 0;
+    int minor = 0;
+    auto operator<=>(const Version&) const = default;
+};
+
+Version version_at(const JsonPlace& place) {
+    const std::string& text = place.text();
+    const std::size_t dot = text.find('.');
+    const auto all_digits = [](const std::string& digits) {
+        return !digits.empty() && digits.size() <= 4 &&
+               std::all_of(digits.begin(), digits.end(), [](char c) { return c >= '0' && c <= '9'; });
+    };
+    if (dot == std::string::npos || !all_digits(text.substr(0, dot)) || !all_digits(text.substr(dot + 1))) {
+        place.fail(fmt::format("'{}' is not a version such as 2.0", text));
+    }
+    return {std::stoi(text.substr(0, dot)), std::stoi(text.substr(dot + 1))};
+}
+
+/// glTF 1.0 keeps its things in objects by name, glTF 2.0 in arrays. Its `asset` was optional and its version a number
+/// at first.
+bool looks_like_version_1(const nlohmann::json& json) {
+    return (json.contains("meshes") && json["meshes"].is_object()) ||
+           (json.contains("nodes") && json["nodes"].is_object());
+}
+
+void check_version(GltfDocument& document) {
+    const JsonPlace root = document.root();
+    root.expect_object();
+    if (looks_like_version_1(document.json)) {
+        is_version_1(document, "/meshes");
+    }
+    const JsonPlace asset = root.at("asset");
+    const Version version = version_at(asset.at("version"));
+    if (version.major == 1) {
+        is_version_1(document, "/asset/version");
+    }
+    if (version.major != 2) {
+        asset.at("version").fail(
+            fmt::format("version {}.{} is not known, glTF 2.0 is read", version.major, version.minor));
+    }
+    if (asset.has("minVersion")) {
+        const Version lowest = version_at(asset.at("minVersion"));
+        if (lowest > version) {
+            asset.at("minVersion").fail("is above the asset's own version");
+        }
+        if (lowest > Version{2, 0}) {
+            asset.at("minVersion").fail(fmt::format("asks for glTF {}.{} and 2.0 is read", lowest.major, lowest.minor));
+        }
+    }
+    if (version.minor > 0) {
+        document.notices.push_back(fmt::format("The asset is glTF 2.{}; it was read as 2.0.", version.minor));
+    }
+}
+
+bool is_supported(std::string_view extension) {
+    return std::find(kSupportedExtensions.begin(), kSupportedExtensions.end(), extension) != kSupportedExtensions.end();
+}
+
+void check_extensions(GltfDocument& document) {
+    const JsonPlace root = document.root();
+    for (std::size_t i = 0; i < count_of(root, "extensionsRequired"); ++i) {
+        const JsonPlace required = root.at("extensionsRequired").at(i);
+        if (!is_supported(required.text())) {
+            required.fail(fmt::format("the file requires the extension {}, which is not supported", required.text()),
+                          "export it without that extension");
+        }
+    }
+    for (std::size_t i = 0; i < count_of(root, "extensionsUsed"); ++i) {
+        const std::string& used = root.at("extensionsUsed").at(i).text();
+        if (!is_supported(used)) {
+            document.notices.push_back(fmt::format("The extension {} is not supported: drawn without it.", used));
+        }
+    }
+}
+
+}  // namespace
+
+bool GltfDocument::uses_extension(std::string_view name) const {
+    const auto used = json.find("extensionsUsed");
+    return used != json.end() && std::any_of(used->begin(), used->end(), [&](const nlohmann::json& each) {
+               return each.is_string() && each.get_ref<const std::string&>() == name;
+           });
+}
+
+std::optional<std::size_t> index_in(const JsonPlace& owner, std::string_view key, std::size_t count,
+                                    std::string_view what) {
+    if (!owner.has(key)) {
+        return std::nullopt;
+    }
+    const JsonPlace place = owner.at(key);
+    const std::uint64_t index = place.whole();
+    if (index >= count) {
+        place.fail(fmt::format("points at number {} of {} {}", index, count, what));
+    }
+    return static_cast<std::size_t>(index);
+}
+
+GltfDocument read_gltf_document(const std::filesystem::path& file) {
+    GltfDocument document{
+        .file = file, .source = {file.string(), kAdvice}, .json = {}, .binary_chunk = {}, .notices = {}};
+    const std::string bytes = read_regular_file(file, kMostFileBytes, file.string());
+    const bool binary = bytes.starts_with("glTF");
+    if (!binary && file.extension() == ".glb") {
+        bad_glb(document, 0, "a GLB starts with the letters glTF and this file does not");
+    }
+    const std::string_view text = binary ? split_glb(document, bytes) : std::string_view(bytes);
+    if (text.size() > kMostJsonBytes) {
+        throw Error(Fault::input,
+                    fmt::format("{}: the JSON has {} bytes, more than the {} that are read; move its data to "
+                                "separate files",
+                                document.source.file, text.size(), kMostJsonBytes));
+    }
+    document.json = parse_json(text, document.source);
+    return document;
+}
+
+void check_gltf(GltfDocument& document) {
+    check_version(document);
+    check_extensions(document);
+    check_gltf_data(document);
+    check_gltf_scenes(document);
+}
+
+}  // namespace halfframe::content

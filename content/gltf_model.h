@@ -1,0 +1,62 @@
+// A checked glTF document in tinygltf's types, and the two things read from it: images and primitives.
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include <tiny_gltf.h>
+
+#include "content/gltf_document.h"
+#include "engine/frame/scene.h"
+
+namespace halfframe::content {
+
+/// Decoded 8-bit RGBA pixels; empty when nothing uses the image.
+struct DecodedImage {
+    int width = 0;
+    int height = 0;
+    std::vector<std::uint8_t> rgba;
+};
+
+struct GltfModel {
+    JsonSource source;
+    tinygltf::Model model;
+    std::vector<DecodedImage> images;
+    std::vector<bool> buffer_has_data;
+
+    /// Error(input) when the buffer behind the view has no data.
+    void expect_data(std::size_t buffer_view) const;
+};
+
+/// Hands tinygltf only what was checked: known keys, and bytes already in memory. Decodes the images in `used_images`.
+[[nodiscard]] GltfModel parse_gltf_model(const GltfDocument& document, GltfResources resources,
+                                         const std::set<std::size_t>& used_images);
+
+/// Elements of an accessor as T = float or glm::vecN<float>, normalized integers as glTF 2.0 section 3.11 says. Missing
+/// components are 1 (an alpha). Applies sparse replacement.
+template <typename T>
+[[nodiscard]] std::vector<T> read_elements(const GltfModel& gltf, int accessor);
+[[nodiscard]] std::vector<std::uint32_t> read_indices(const GltfModel& gltf, int accessor);
+
+/// What a primitive needs from its material.
+struct PrimitiveNeeds {
+    int uv_set = -1;  ///< the TEXCOORD set of its textures; -1: it has none
+    bool tangents = false;
+};
+
+/// Vertices and indices read so far, against the caps.
+struct ReadSoFar {
+    std::uint64_t vertices = 0;
+    std::uint64_t indices = 0;
+};
+
+/// Nothing when there is nothing to draw; then a notice says why.
+[[nodiscard]] std::optional<Mesh> read_primitive(const GltfModel& gltf, std::size_t mesh, std::size_t primitive,
+                                                 const PrimitiveNeeds& needs, ReadSoFar& so_far,
+                                                 std::vector<std::string>& notices);
+
+/// Adds a sentence once.
+void add_notice(std::vector<std::string>& notices, const std::string& sentence);
+
+}  // namespace halfframe::content

@@ -1,0 +1,189 @@
+// Triangle lists, normals, tangents, mirroring.
+#include "content/mesh_tools.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "engine/error.h"
+
+namespace halfframe::content {
+namespace {
+
+bool is_finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+/// `v` over its length, or `otherwise` when that length is 0 or not finite. Scaled first: |v|^2 must not leave float.
+glm::vec3 unit_or(const glm::vec3& v, const glm::vec3& otherwise) {
+    const float largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    if (!is_finite(v) || largest == 0.0f) {
+        return otherwise;
+    }
+    return glm::normalize(v / largest);
+}
+
+/// Twice the area of the face times its normal, in double: products of large coordinates leave float.
+glm::vec3 face_normal_times_area(const Mesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    const glm::dvec3 origin(mesh.positions[a]);
+    const glm::dvec3 normal =
+        glm::cross(glm::dvec3(mesh.positions[b]) - origin, glm::dvec3(mesh.positions[c]) - origin);
+    return glm::vec3(glm::clamp(normal, -1e30, 1e30));
+}
+
+/// Any unit vector orthogonal to `normal`.
+glm::vec3 some_tangent(const glm::vec3& normal) {
+    const glm::vec3 axis = std::abs(normal.x) < 0.9f ? glm::vec3(1.0f, 0.0f, 0.0f) : glm::vec3(0.0f, 0.0f, 1.0f);
+    return glm::normalize(axis - normal * glm::dot(normal, axis));
+}
+
+template <typename Stream>
+Stream gathered(const Stream& stream, const std::vector<std::uint32_t>& indices) {
+    Stream result;
+    if (!stream.empty()) {
+        result.reserve(indices.size());
+        for (const std::uint32_t index : indices) {
+            result.push_back(stream[index]);
+        }
+    }
+    return result;
+}
+
+}  // namespace
+
+bool has_faces(Primitive primitive) {
+    return primitive == Primitive::triangles || primitive == Primitive::triangle_strip ||
+           primitive == Primitive::triangle_fan;
+}
+
+std::size_t drawn_vertices(const Mesh& mesh) {
+    return mesh.indices.empty() ? mesh.positions.size() : mesh.indices.size();
+}
+
+std::vector<std::uint32_t> triangle_list(const Mesh& mesh) {
+    expect(has_faces(mesh.primitive), "a triangle list was asked of a mesh of points or lines");
+    const std::size_t count = drawn_vertices(mesh);
+    const auto index = [&](std::size_t i) {
+        return mesh.indices.empty() ? static_cast<std::uint32_t>(i) : mesh.indices[i];
+    };
+    std::vector<std::uint32_t> result;
+    if (mesh.primitive == Primitive::triangles) {
+        for (std::size_t i = 0; i < count / 3 * 3; ++i) {
+            result.push_back(index(i));
+        }
+        return result;
+    }
+    for (std::size_t i = 2; i < count; ++i) {
+        const bool fan = mesh.primitive == Primitive::triangle_fan;
+        std::uint32_t first = fan ? index(0) : index(i - 2);
+        std::uint32_t second = index(i - 1);
+        if (!fan && i % 2 == 1) {
+            std::swap(first, second);  // every other triangle of a strip runs the other way around
+        }
+        result.insert(result.end(), {first, second, index(i)});
+    }
+    return result;
+}
+
+Mesh flat_shaded(const Mesh& mesh) {
+    const std::vector<std::uint32_t> list = triangle_list(mesh);
+    Mesh result;
+    result.name = mesh.name;
+    result.positions = gathered(mesh.positions, list);
+    result.uv = gathered(mesh.uv, list);
+    result.colors = gathered(mesh.colors, list);
+    result.normals.reserve(list.size());
+    for (std::size_t i = 0; i + 2 < list.size(); i += 3) {
+        const glm::vec3 normal =
+            unit_or(face_normal_times_area(mesh, list[i], list[i + 1], list[i + 2]), glm::vec3(0.0f, 1.0f, 0.0f));
+        result.normals.insert(result.normals.end(), 3, normal);
+    }
+    return result;
+}
+
+std::size_t repair_normals(Mesh& mesh) {
+    std::vector<bool> bad(mesh.normals.size(), false);
+    std::size_t bad_count = 0;
+    for (std::size_t i = 0; i < mesh.normals.size(); ++i) {
+        mesh.normals[i] = unit_or(mesh.normals[i], glm::vec3(0.0f));
+        bad[i] = mesh.normals[i] == glm::vec3(0.0f);
+        bad_count += bad[i] ? 1 : 0;
+    }
+    if (bad_count == 0) {
+        return 0;
+    }
+    if (has_faces(mesh.primitive)) {
+        const std::vector<std::uint32_t> list = triangle_list(mesh);
+        for (std::size_t i = 0; i + 2 < list.size(); i += 3) {
+            const glm::vec3 normal = face_normal_times_area(mesh, list[i], list[i + 1], list[i + 2]);
+            for (std::size_t corner = i; corner < i + 3; ++corner) {
+                if (bad[list[corner]]) {
+                    mesh.normals[list[corner]] += normal;
+                }
+            }
+        }
+    }
+    for (std::size_t i = 0; i < mesh.normals.size(); ++i) {
+        if (bad[i]) {
+            mesh.normals[i] = unit_or(mesh.normals[i], glm::vec3(0.0f, 1.0f, 0.0f));
+        }
+    }
+    return bad_count;
+}
+
+void add_tangents(Mesh& mesh) {
+    expect(mesh.normals.size() == mesh.positions.size() && mesh.uv.size() == mesh.positions.size(),
+           "tangents need a normal and a uv at every vertex");
+    std::vector<glm::dvec3> along_u(mesh.positions.size(), glm::dvec3(0.0));
+    std::vector<glm::dvec3> along_v(mesh.positions.size(), glm::dvec3(0.0));
+    const std::vector<std::uint32_t> list =
+        has_faces(mesh.primitive) ? triangle_list(mesh) : std::vector<std::uint32_t>();
+    for (std::size_t i = 0; i + 2 < list.size(); i += 3) {
+        const glm::dvec3 origin(mesh.positions[list[i]]);
+        const glm::dvec3 edge_1 = glm::dvec3(mesh.positions[list[i + 1]]) - origin;
+        const glm::dvec3 edge_2 = glm::dvec3(mesh.positions[list[i + 2]]) - origin;
+        const glm::dvec2 uv_1 = glm::dvec2(mesh.uv[list[i + 1]]) - glm::dvec2(mesh.uv[list[i]]);
+        const glm::dvec2 uv_2 = glm::dvec2(mesh.uv[list[i + 2]]) - glm::dvec2(mesh.uv[list[i]]);
+        // Dividing by the determinant would only weigh by the uv area; its sign is what matters.
+        const double sign = uv_1.x * uv_2.y - uv_2.x * uv_1.y < 0.0 ? -1.0 : 1.0;
+        for (std::size_t corner = i; corner < i + 3; ++corner) {
+            along_u[list[corner]] += sign * (edge_1 * uv_2.y - edge_2 * uv_1.y);
+            along_v[list[corner]] += sign * (edge_2 * uv_1.x - edge_1 * uv_2.x);
+        }
+    }
+    mesh.tangents.resize(mesh.positions.size());
+    for (std::size_t i = 0; i < mesh.tangents.size(); ++i) {
+        const glm::dvec3 normal(mesh.normals[i]);
+        const glm::dvec3 tangent = along_u[i] - normal * glm::dot(normal, along_u[i]);
+        const double length = glm::length(tangent);
+        const bool known = std::isfinite(length) && length > 1e-12 * glm::length(along_u[i]) && length > 0.0;
+        const glm::vec3 unit = known ? glm::vec3(tangent / length) : some_tangent(mesh.normals[i]);
+        const bool right_handed = glm::dot(glm::cross(normal, glm::dvec3(unit)), along_v[i]) <= 0.0;
+        mesh.tangents[i] = glm::vec4(unit, right_handed ? 1.0f : -1.0f);
+    }
+}
+
+void repair_tangents(Mesh& mesh) {
+    for (std::size_t i = 0; i < mesh.tangents.size(); ++i) {
+        const glm::vec3 given(unit_or(glm::vec3(mesh.tangents[i]), glm::vec3(0.0f)));
+        const glm::vec3 flat = given - mesh.normals[i] * glm::dot(mesh.normals[i], given);
+        // Under 0.01 the tangent is the normal but for rounding: its direction means nothing.
+        const glm::vec3 unit = glm::length(flat) > 0.01f ? glm::normalize(flat) : some_tangent(mesh.normals[i]);
+        mesh.tangents[i] = glm::vec4(unit, mesh.tangents[i].w < 0.0f ? -1.0f : 1.0f);
+    }
+}
+
+Mesh mirrored(const Mesh& mesh) {
+    Mesh result = mesh;
+    if (has_faces(mesh.primitive)) {
+        result.indices = triangle_list(mesh);
+        result.primitive = Primitive::triangles;
+        for (std::size_t i = 0; i + 2 < result.indices.size(); i += 3) {
+            std::swap(result.indices[i + 1], result.indices[i + 2]);
+        }
+    }
+    for (glm::vec4& tangent : result.tangents) {
+        tangent.w = -tangent.w;
+    }
+    return result;
+}
+
+}  // namespace halfframe::content

@@ -1,0 +1,49 @@
+// The studio rig: lights for a scene that brings none. content/README.md has the numbers.
+#include "content/content.h"
+
+#include <algorithm>
+
+namespace halfframe::content {
+namespace {
+
+/// A point light that gives `color` at `distance_m`: c_light is defined at 1 m, and light falls with the square.
+Light point_at(const char* name, const glm::vec3& position, const glm::vec3& color, float distance_m, float range_m) {
+    Light light;
+    light.kind = LightKind::point;
+    light.name = name;
+    light.position = position;
+    light.color = color * distance_m * distance_m;
+    light.range_m = range_m;
+    return light;
+}
+
+}  // namespace
+
+bool add_studio_rig(Scene& scene) {
+    if (!scene.lights.empty() || scene.ambient != glm::vec3(0.0f)) {
+        return false;
+    }
+    const Box box = world_box(scene);
+    const glm::vec3 centre = box.empty() ? glm::vec3(0.0f) : 0.5f * (box.low + box.high);
+    // A box without size (one point) still gets lights that are not inside it.
+    const float radius_m = box.empty() ? 1.0f : std::max(0.5f * glm::length(box.high - box.low), 1e-3f);
+
+    Light sun;
+    sun.kind = LightKind::sun;
+    sun.name = "studio sun";
+    sun.color = glm::vec3(0.85f, 0.82f, 0.78f);
+    sun.direction = glm::normalize(glm::vec3(-0.45f, -0.75f, -0.50f));
+    scene.lights.push_back(sun);
+
+    const float away_m = 2.0f * radius_m;
+    const glm::vec3 left = glm::normalize(glm::vec3(-0.85f, 0.25f, 0.45f));
+    const glm::vec3 behind = glm::normalize(glm::vec3(0.55f, 0.45f, -0.70f));
+    scene.lights.push_back(
+        point_at("studio fill", centre + left * away_m, glm::vec3(0.22f, 0.27f, 0.36f), away_m, 4.0f * away_m));
+    scene.lights.push_back(
+        point_at("studio rim", centre + behind * away_m, glm::vec3(0.34f, 0.26f, 0.36f), away_m, 4.0f * away_m));
+    scene.ambient = glm::vec3(0.10f, 0.11f, 0.13f);
+    return true;
+}
+
+}  // namespace halfframe::content

@@ -1,0 +1,128 @@
+// What render and report share.
+#include "perf/cli/drawing.h"
+
+#include <cstdlib>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "content/content.h"
+
+namespace halfframe::cli {
+namespace {
+
+constexpr const char* kDefaultBudget = "ps3_30fps";
+
+/// $XDG_CACHE_HOME/halfframe, else ~/.cache/halfframe, else nothing: a user without a home keeps no programs.
+std::filesystem::path cache_folder(const std::string& wished) {
+    if (wished == "none") {
+        return {};
+    }
+    if (!wished.empty()) {
+        return wished;
+    }
+    const auto variable = [](const char* name) {
+        const char* value = std::getenv(name);
+        return std::filesystem::path(value != nullptr ? value : "");
+    };
+    if (const auto cache = variable("XDG_CACHE_HOME"); cache.is_absolute()) {
+        return cache / "halfframe";
+    }
+    if (const auto home = variable("HOME"); home.is_absolute()) {
+        return home / ".cache" / "halfframe";
+    }
+    return {};
+}
+
+}  // namespace
+
+void add_drawing_options(CLI::App& command, DrawingOptions& options) {
+    command
+        .add_option("--measure", options.measured_frames,
+                    "Frames to time after a first one, 0 to 100000; 0: time nothing. The table shows the median and the "
+                    "25th to 75th percentile [ms]")
+        ->type_name("N")
+        ->check(CLI::Range(0, 100000).description(""))
+        ->capture_default_str();
+    command
+        .add_option("--budget", options.budget,
+                    "Budget by name or .json file: rows [ms], frame [ms], memory [MiB], draws. A budget named here judges "
+                    "the frame's time on a software driver too. Default: ps3_30fps")
+        ->type_name("NAME|FILE");
+    command.add_flag("--census", options.census,
+                     "Draw once more with every target RGBA32F and count NaN and inf; exit 1 when there is one");
+    command
+        .add_option("--cache", options.cache,
+                    "Folder for program binaries, or none. Default: $XDG_CACHE_HOME/halfframe or ~/.cache/halfframe")
+        ->type_name("DIR|none");
+    command.add_flag("--json", options.json, "Standard output is one JSON value; everything else goes to standard error");
+}
+
+perf::DrawRequest draw_request(const DrawingOptions& options, Progress& progress) {
+    perf::DrawRequest request;
+    request.measured_frames = options.measured_frames;
+    request.census = options.census;
+    request.program_cache_folder = cache_folder(options.cache);
+    request.between = [&progress](const std::string& step) {
+        stop_if_interrupted();
+        progress.show(step);
+    };
+    return request;
+}
+
+DrawnScene draw_with_options(GraphicsDevice& device, const std::string& scene, const SceneOptions& options,
+                             const DrawingOptions& drawing, const perf::DrawRequest& request) {
+    const Budget budget = content::budget(drawing.budget.empty() ? kDefaultBudget : drawing.budget);
+    request.between("opening " + scene);
+    const OpenedScene opened = open_with_options(scene, options, device.caps());
+    DrawnScene drawn;
+    drawn.result =
+        perf::draw_scene(device.gl(), device.caps(), opened.scene, opened.view, opened.wishes, request);
+    perf::FrameReport& report = drawn.result.report;
+    report.scene = opened.label;
+    report.context = device.context().description();
+    drawn.budget = perf::budget_table(report, budget, !drawing.budget.empty());
+    return drawn;
+}
+
+int verdict(const DrawnScene& drawn) {
+    int code = 0;
+    const auto fail = [&](const std::string& sentence) {
+        fmt::print(stderr, "failed: {}\n", sentence);
+        code = 1;
+    };
+    for (const perf::BudgetLine& line : drawn.budget.lines) {
+        if (line.verdict == perf::Verdict::over) {
+            fail(fmt::format("{}: {} is {}", drawn.result.report.scene, line.name, line.verdict_text));
+        }
+    }
+    for (const perf::LimitLine& line : drawn.budget.limits) {
+        if (line.verdict == perf::Verdict::over) {
+            fail(fmt::format("{}: {} {} is {} (limit {})", drawn.result.report.scene, line.name, line.value,
+                             line.verdict_text, line.limit));
+        }
+    }
+    for (const CensusRow& row : drawn.result.report.census.value_or(std::vector<CensusRow>{})) {
+        if (row.nan + row.inf > 0) {
+            fail(fmt::format("{}: {} holds {} NaN and {} inf", drawn.result.report.scene, row.target, row.nan, row.inf));
+        }
+    }
+    return code;
+}
+
+std::string options_text(const DrawingOptions& options) {
+    const DrawingOptions defaults;
+    std::string text;
+    if (options.measured_frames != defaults.measured_frames) {
+        text += fmt::format(" --measure {}", options.measured_frames);
+    }
+    if (!options.budget.empty()) {
+        text += " --budget " + shell_quoted(options.budget);
+    }
+    if (options.census) {
+        text += " --census";
+    }
+    return text;
+}
+
+}  // namespace halfframe::cli

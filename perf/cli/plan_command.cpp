@@ -1,0 +1,64 @@
+// halfframe plan SCENE: the frame as data, without drawing it.
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "engine/frame/effect_card.h"
+#include "perf/cli/command.h"
+#include "perf/cli/scene_options.h"
+#include "perf/cli/terminal.h"
+#include "perf/report/json_report.h"
+#include "perf/report/text_report.h"
+
+namespace halfframe::cli {
+namespace {
+
+class PlanCommand : public Command {
+public:
+    explicit PlanCommand(CLI::App& app) {
+        CLI::App& command = *app.add_subcommand(
+            "plan", "Shows the passes, targets and memory of a frame, and why each effect is in or out; draws nothing");
+        command.add_option("SCENE", scene_, "A .gltf or .glb file, or a built-in scene (halfframe scenes)")->required();
+        add_scene_options(command, options_);
+        command.add_flag("--json", json_, "Standard output is one JSON value; everything else goes to standard error");
+        command.footer(std::string("A context is needed all the same, to read what the device can do. Exit code 1: the plan "
+                                   "breaks a rule.\n") +
+                       kExitCodes);
+    }
+
+    [[nodiscard]] std::string name() const override { return "plan"; }
+
+    int run() override {
+        check_options(options_);
+        GraphicsDevice device(options_.device);
+        const OpenedScene opened = open_with_options(scene_, options_, device.caps());
+        const FramePlan plan = plan_frame(opened.scene, opened.view, opened.wishes, device.caps(), all_effects());
+        const std::optional<std::string> broken = broken_rule(plan, device.caps());
+        stop_if_interrupted();
+        for (const std::vector<std::string>* notices : {&opened.scene.notices, &plan.notices}) {
+            for (const std::string& sentence : *notices) {
+                notice(sentence);
+            }
+        }
+        if (json_) {
+            nlohmann::ordered_json json = perf::plan_json(plan);
+            json["device"] = device.caps().device;
+            json["renderer"] = device.caps().renderer;
+            json["broken_rule"] = broken ? nlohmann::ordered_json(*broken) : nlohmann::ordered_json(nullptr);
+            print_json(json);
+        } else {
+            print(perf::plan_text(plan) + "\n" + (broken ? "broken rule: " + *broken : "no rule is broken") + "\n");
+        }
+        return broken ? 1 : 0;
+    }
+
+private:
+    std::string scene_;
+    SceneOptions options_;
+    bool json_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_plan_command(CLI::App& app) { return std::make_unique<PlanCommand>(app); }
+
+}  // namespace halfframe::cli

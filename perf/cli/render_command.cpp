@@ -1,0 +1,130 @@
+// halfframe render SCENE: one picture and what it cost.
+#include <filesystem>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "engine/error.h"
+#include "perf/cli/command.h"
+#include "perf/cli/drawing.h"
+#include "perf/report/atomic_file.h"
+#include "perf/report/html_page.h"
+#include "perf/report/json_report.h"
+#include "perf/report/picture_file.h"
+#include "perf/report/text_report.h"
+
+namespace halfframe::cli {
+namespace {
+
+class RenderCommand : public Command {
+public:
+    explicit RenderCommand(CLI::App& app) {
+        CLI::App& command = *app.add_subcommand(
+            "render", "Draws a scene without a window, writes the picture, and prints what each pass cost");
+        command.add_option("SCENE", scene_, "A .gltf or .glb file, or a built-in scene (halfframe scenes)")->required();
+        command
+            .add_option("-o,--output", output_,
+                        ".png: what a display shows, 8-bit RGB. .exr: linear light of scene_color, 32-bit float")
+            ->type_name("FILE");
+        add_scene_options(command, options_);
+        add_drawing_options(command, drawing_);
+        command
+            .add_option("--trace", trace_,
+                        "Write every GL call of preparing and of exactly one frame as JSON, byte-stable between runs; "
+                        "without timing and without the program cache")
+            ->type_name("FILE");
+        command.add_flag("--ledger", ledger_, "Print the GL calls of preparing and of one frame by pass; without the program cache");
+        command.add_option("--html", html_, "Also write one self-contained HTML page")->type_name("FILE");
+        command.footer(kExitCodes);
+    }
+
+    [[nodiscard]] std::string name() const override { return "render"; }
+
+    int run() override {
+        check_options(options_);
+        check_outputs();
+        Progress progress;
+        perf::DrawRequest request = draw_request(drawing_, progress);
+        request.between("starting");
+        request.trace = !trace_.empty();
+        request.linear = wants_exr();
+        if (ledger_ || request.trace) {
+            request.program_cache_folder.clear();
+        }
+        GraphicsDevice device(options_.device);
+        DrawnScene drawn = draw_with_options(device, scene_, options_, drawing_, request);
+        drawn.result.report.picture_file = output_;
+        drawn.result.report.reproduce = reproduce();
+        stop_if_interrupted();
+        progress.clear();
+        write_files(drawn);
+        for (const std::string& sentence : drawn.result.report.notices) {
+            notice(sentence);
+        }
+        print_results(drawn);
+        return verdict(drawn);
+    }
+
+private:
+    [[nodiscard]] bool wants_exr() const { return output_.ends_with(".exr"); }
+
+    /// Before minutes of drawing: can all that was asked for be written?
+    void check_outputs() const {
+        if (!output_.empty() && !wants_exr() && !output_.ends_with(".png")) {
+            throw Error(Fault::usage, fmt::format("-o {}: the name must end in .png or .exr", output_));
+        }
+        for (const std::string& file : {output_, trace_, html_}) {
+            if (!file.empty()) {
+                perf::expect_can_write(file);
+            }
+        }
+    }
+
+    void write_files(const DrawnScene& drawn) const {
+        if (wants_exr()) {
+            perf::write_exr(output_, drawn.result.linear.value());
+        } else if (!output_.empty()) {
+            perf::write_png(output_, drawn.result.report.display);
+        }
+        if (!trace_.empty()) {
+            perf::write_file(trace_, drawn.result.trace_json);
+        }
+        if (!html_.empty()) {
+            perf::write_file(html_, perf::html_page({{&drawn.result.report, &drawn.budget}}));
+        }
+    }
+
+    void print_results(const DrawnScene& drawn) const {
+        if (drawing_.json) {
+            print_json(perf::report_json(drawn.result.report, drawn.budget));
+            return;
+        }
+        print(perf::budget_text(drawn.budget, drawn.result.report));
+        if (drawn.result.report.census) {
+            print("\n" + perf::census_text(*drawn.result.report.census));
+        }
+        if (ledger_) {
+            print("\n" + perf::ledger_text(drawn.result.report));
+        }
+    }
+
+    [[nodiscard]] std::string reproduce() const {
+        return "halfframe render " + shell_quoted(scene_) + options_text(options_) + options_text(drawing_) +
+               (output_.empty() ? "" : " -o " + shell_quoted(output_));
+    }
+
+    std::string scene_;
+    std::string output_;
+    SceneOptions options_;
+    DrawingOptions drawing_;
+    std::string trace_;
+    std::string html_;
+    bool ledger_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_render_command(CLI::App& app) { return std::make_unique<RenderCommand>(app); }
+
+}  // namespace halfframe::cli

@@ -1,0 +1,284 @@
+// The options that decide what a frame of a scene is.
+#include "perf/cli/scene_options.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "content/content.h"
+#include "engine/error.h"
+#include "engine/frame/effect_card.h"
+#include "perf/cli/scene_settings.h"
+#include "perf/cli/spelling.h"
+
+namespace halfframe::cli {
+namespace {
+
+constexpr int kLargestSize = 8192;
+constexpr float kRadiansPerDegree = 0.017453293f;
+constexpr float kFramedFovYRad = 40.0f * kRadiansPerDegree;
+
+struct Size {
+    int width = 0;
+    int height = 0;
+};
+
+Size parse_size(const std::string& text) {
+    const std::size_t cross = text.find('x');
+    Size size;
+    const auto number = [](std::string_view digits, int& value) {
+        const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+        return error == std::errc() && end == digits.data() + digits.size() && value >= 1 && value <= kLargestSize;
+    };
+    const std::string_view view = text;
+    if (cross == std::string::npos || !number(view.substr(0, cross), size.width) ||
+        !number(view.substr(cross + 1), size.height)) {
+        throw Error(Fault::usage, fmt::format("--size {}: write WIDTHxHEIGHT in pixels, each 1 to {}", text, kLargestSize));
+    }
+    return size;
+}
+
+Tier parse_tier(const std::string& text) {
+    const auto tier = tier_from_name(text);
+    if (!tier) {
+        std::vector<std::string> names;
+        for (int index = 0; index < kTierCount; ++index) {
+            names.emplace_back(name(static_cast<Tier>(index)));
+        }
+        throw Error(Fault::usage, unknown("tier", text, names));
+    }
+    return *tier;
+}
+
+void add_tier(const std::string& text, Wishes& wishes) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos) {
+        wishes.tier = parse_tier(text);
+        return;
+    }
+    const std::string effect = text.substr(0, equals);
+    if (find_effect(effect) == nullptr) {
+        std::vector<std::string> names;
+        for (const EffectCard* card : all_effects()) {
+            names.emplace_back(card->name);
+        }
+        throw Error(Fault::usage, unknown("effect in --tier", effect, names));
+    }
+    wishes.effect_tiers.emplace_back(effect, parse_tier(text.substr(equals + 1)));
+}
+
+std::optional<Arithmetic> parse_arithmetic(const std::string& text) {
+    if (text == "auto") {
+        return std::nullopt;
+    }
+    if (text == "half" || text == "full") {
+        return text == "half" ? Arithmetic::half : Arithmetic::full;
+    }
+    throw Error(Fault::usage, unknown("arithmetic", text, {"auto", "half", "full"}));
+}
+
+std::optional<gl::PixelFormat> parse_storage(const std::string& text) {
+    const std::vector<std::pair<std::string, gl::PixelFormat>> formats{
+        {"rgba32f", gl::PixelFormat::rgba32f},       {"rgba16f", gl::PixelFormat::rgba16f},
+        {"r11g11b10f", gl::PixelFormat::r11g11b10f}, {"rgb10_a2", gl::PixelFormat::rgb10_a2},
+        {"rgba8", gl::PixelFormat::rgba8}};
+    std::vector<std::string> names{"auto"};
+    for (const auto& [format_name, format] : formats) {
+        if (format_name == text) {
+            return format;
+        }
+        names.push_back(format_name);
+    }
+    if (text != "auto") {
+        throw Error(Fault::usage, unknown("storage", text, names));
+    }
+    return std::nullopt;
+}
+
+Wishes parse_wishes(const SceneOptions& options) {
+    Wishes wishes;
+    for (const std::string& tier : options.tiers) {
+        add_tier(tier, wishes);
+    }
+    wishes.arithmetic = parse_arithmetic(options.arithmetic);
+    wishes.storage = parse_storage(options.storage);
+    return wishes;
+}
+
+const Camera& camera_named(const Scene& scene, const std::string& wished) {
+    std::vector<std::string> names;
+    for (std::size_t index = 0; index < scene.cameras.size(); ++index) {
+        const Camera& camera = scene.cameras[index];
+        if (camera.name == wished || std::to_string(index) == wished) {
+            return camera;
+        }
+        names.push_back(camera.name.empty() ? std::to_string(index) : camera.name);
+    }
+    if (names.empty()) {
+        throw Error(Fault::usage, fmt::format("--camera {}: this scene brings no camera; leave it out to frame the model, "
+                                              "or give --eye and --target", wished));
+    }
+    throw Error(Fault::usage, unknown("camera", wished, names));
+}
+
+Camera choose_camera(Scene& scene, const SceneOptions& options, const Size& size) {
+    const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
+    const Box box = world_box(scene);
+    const float fov_y_rad =
+        options.fov_y_deg ? static_cast<float>(*options.fov_y_deg) * kRadiansPerDegree : kFramedFovYRad;
+    if (!options.eye.empty()) {
+        const glm::vec3 eye = parse_triple(options.eye, "--eye");
+        const glm::vec3 target = parse_triple(options.target, "--target");
+        return camera_looking(eye, target, fov_y_rad, box);
+    }
+    if (options.camera.empty() && scene.cameras.empty()) {
+        scene.notices.push_back("the scene brings no camera, so it is framed whole; --eye and --target choose a view");
+        return camera_framing(box, aspect, fov_y_rad);
+    }
+    Camera camera = options.camera.empty() ? scene.cameras.front() : camera_named(scene, options.camera);
+    if (options.fov_y_deg) {
+        camera.fov_y_rad = fov_y_rad;
+    }
+    return camera;
+}
+
+}  // namespace
+
+void add_scene_options(CLI::App& command, SceneOptions& options) {
+    command.add_option("--size", options.size, "Width and height of the picture [pixels], each 1 to 8192 and within the device")
+        ->type_name("WxH")
+        ->capture_default_str();
+    command
+        .add_option("--tier", options.tiers,
+                    "Quality: low, console or reference, of everything or (EFFECT=TIER) of one effect; repeatable. "
+                    "Default: console where it runs, else low")
+        ->type_name("TIER|EFFECT=TIER")
+        ->allow_extra_args(false);
+    command
+        .add_option("--arithmetic", options.arithmetic,
+                    "Precision of shaders: half (mediump where they allow it), full (highp), auto: full on a software "
+                    "driver, half elsewhere")
+        ->type_name("NAME")
+        ->capture_default_str();
+    command
+        .add_option("--storage", options.storage,
+                    "Format of scene_color: rgba32f, rgba16f, r11g11b10f, rgb10_a2, rgba8, or auto: the highest that the "
+                    "tier and the device allow")
+        ->type_name("FORMAT")
+        ->capture_default_str();
+    add_device_options(command, options.device);
+    CLI::Option* camera =
+        command.add_option("--camera", options.camera, "Camera of the scene by name, or by number from 0. Default: the first; "
+                                                       "a scene without one is framed whole")
+            ->type_name("NAME|N");
+    CLI::Option* eye = command.add_option("--eye", options.eye, "Where the view is from [m], +Y up; needs --target")
+                           ->type_name("X,Y,Z")
+                           ->excludes(camera);
+    command.add_option("--target", options.target, "What is looked at [m]; needs --eye")
+        ->type_name("X,Y,Z")
+        ->needs(eye);
+    command
+        .add_option("--fov-y", options.fov_y_deg,
+                    "Vertical field of view [degrees], above 0 and below 180. Default: the camera's, else 40")
+        ->type_name("DEG");
+    command
+        .add_option("--set", options.settings,
+                    "Change the scene; repeatable. exposure=N (above 0); ambient=R,G,B (linear light); sky.zenith=R,G,B, "
+                    "sky.horizon=R,G,B, sky.ground=R,G,B (display values 0 to 1); EFFECT.on=0|1 (in or out, whatever "
+                    "the scene calls for)")
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false);
+}
+
+void check_options(const SceneOptions& options) {
+    (void)parse_size(options.size);
+    (void)parse_wishes(options);
+    (void)context_description(options.device);
+    if (!options.eye.empty()) {
+        if (options.target.empty()) {
+            throw Error(Fault::usage, "--eye needs --target X,Y,Z, the point that is looked at");
+        }
+        if (parse_triple(options.eye, "--eye") == parse_triple(options.target, "--target")) {
+            throw Error(Fault::usage, "--eye and --target are the same point, so there is no direction to look in");
+        }
+    }
+    if (options.fov_y_deg && !(*options.fov_y_deg > 0.0 && *options.fov_y_deg < 180.0)) {
+        throw Error(Fault::usage, fmt::format("--fov-y {}: degrees above 0 and below 180", *options.fov_y_deg));
+    }
+    Scene scene;
+    View view;
+    Wishes wishes;
+    for (const std::string& setting : options.settings) {
+        apply(parse_setting(setting), scene, view, wishes);
+    }
+}
+
+OpenedScene open_with_options(const std::string& scene, const SceneOptions& options, const gl::Caps& caps) {
+    check_options(options);
+    const Size size = parse_size(options.size);
+    const int largest = std::min(caps.max_texture_size, caps.max_renderbuffer_size);
+    if (std::max(size.width, size.height) > largest) {
+        throw Error(Fault::usage, fmt::format("--size {}: the device {} draws at most {}x{}", options.size, caps.device,
+                                              largest, largest));
+    }
+    OpenedScene opened;
+    opened.scene = content::open_scene(scene);
+    const bool is_file = scene.ends_with(".gltf") || scene.ends_with(".glb");
+    opened.label = is_file ? std::filesystem::path(scene).filename().string() : scene;
+    opened.wishes = parse_wishes(options);
+    if (content::add_studio_rig(opened.scene)) {
+        opened.scene.notices.push_back("the scene brings no lights, so the studio rig lights it: a sun, two points, ambient");
+    }
+    opened.view = view_of(choose_camera(opened.scene, options, size), size.width, size.height);
+    for (const std::string& setting : options.settings) {
+        apply(parse_setting(setting), opened.scene, opened.view, opened.wishes);
+    }
+    return opened;
+}
+
+std::string shell_quoted(const std::string& word) {
+    constexpr std::string_view kPlain =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-+=.,/:@%";
+    if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) {
+        return word;
+    }
+    std::string quoted = "'";
+    for (const char character : word) {
+        quoted += character == '\'' ? std::string("'\\''") : std::string(1, character);
+    }
+    return quoted + "'";
+}
+
+std::string options_text(const SceneOptions& options) {
+    const SceneOptions defaults;
+    std::string text;
+    const auto add = [&](const char* option, const std::string& value, const std::string& standard) {
+        if (value != standard) {
+            text += fmt::format(" {} {}", option, shell_quoted(value));
+        }
+    };
+    add("--size", options.size, defaults.size);
+    for (const std::string& tier : options.tiers) {
+        add("--tier", tier, "");
+    }
+    add("--arithmetic", options.arithmetic, defaults.arithmetic);
+    add("--storage", options.storage, defaults.storage);
+    add("--device", options.device.device, defaults.device.device);
+    add("--context", options.device.context, defaults.device.context);
+    add("--camera", options.camera, "");
+    add("--eye", options.eye, "");
+    add("--target", options.target, "");
+    if (options.fov_y_deg) {
+        add("--fov-y", fmt::format("{}", *options.fov_y_deg), "");
+    }
+    for (const std::string& setting : options.settings) {
+        add("--set", setting, "");
+    }
+    return text;
+}
+
+}  // namespace halfframe::cli

@@ -1,0 +1,55 @@
+// The options that decide what a frame of a scene is, shared by render, report and plan.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/frame/frame_plan.h"
+#include "engine/frame/scene.h"
+#include "perf/cli/graphics_device.h"
+
+namespace CLI {
+class App;
+}
+
+namespace halfframe::cli {
+
+struct SceneOptions {
+    DeviceOptions device;
+    std::string size = "1280x720";
+    std::vector<std::string> tiers;
+    std::string arithmetic = "auto";
+    std::string storage = "auto";
+    std::string camera;
+    std::string eye;
+    std::string target;
+    std::optional<double> fov_y_deg;
+    std::vector<std::string> settings;
+};
+
+/// Adds the options to a subcommand; `options` outlives it.
+void add_scene_options(CLI::App& command, SceneOptions& options);
+
+/// A scene with a camera and lights, and how it is to be drawn.
+struct OpenedScene {
+    std::string label;  ///< file name or built-in name, for people
+    Scene scene;
+    View view;
+    Wishes wishes;
+};
+
+/// Checks every option before the scene is opened: Error(usage) with the nearest spelling. Loads the scene, frames it
+/// when it brings no camera, lights it with the studio rig when it brings no lights; both leave a notice in the scene.
+/// A size above what `caps` allows is Error(usage).
+[[nodiscard]] OpenedScene open_with_options(const std::string& scene, const SceneOptions& options,
+                                            const gl::Caps& caps);
+
+/// Error(usage) for anything in the options that can be seen to be wrong without a context or a scene.
+void check_options(const SceneOptions& options);
+
+/// " --size 64x64 --tier low": the options that differ from the defaults, quoted for a shell.
+[[nodiscard]] std::string options_text(const SceneOptions& options);
+[[nodiscard]] std::string shell_quoted(const std::string& word);
+
+}  // namespace halfframe::cli

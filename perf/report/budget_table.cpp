@@ -1,0 +1,218 @@
+// The budget table: joins the rows of a budget with the passes of a plan and what was measured of them.
+#include "perf/report/budget_table.h"
+
+#include <algorithm>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "engine/frame/effect_card.h"
+#include "perf/report/text_table.h"
+
+namespace halfframe::perf {
+namespace {
+
+/// Quartiles as PassTimer gives them: by rank, no interpolation.
+PassTimer::Summary summary_of(std::vector<double> samples) {
+    std::sort(samples.begin(), samples.end());
+    const auto at = [&](double part) {
+        return samples[static_cast<std::size_t>(part * static_cast<double>(samples.size() - 1) + 0.5)];
+    };
+    return {.median_ms = at(0.5), .low_ms = at(0.25), .high_ms = at(0.75), .frames = static_cast<int>(samples.size())};
+}
+
+/// The passes of a row together: added frame by frame, since a sum of medians is the median of nothing.
+std::optional<PassTimer::Summary> measured_together(const FrameReport& report, const std::vector<std::size_t>& passes) {
+    if (!report.measurement || passes.empty()) {
+        return std::nullopt;
+    }
+    if (passes.size() == 1) {
+        return report.measurement->passes[passes.front()];
+    }
+    std::vector<double> sums;
+    for (const std::size_t pass : passes) {
+        const auto& samples = report.measurement->samples[pass];
+        sums.resize(std::max(sums.size(), samples.size()), 0.0);
+        for (std::size_t frame = 0; frame < samples.size(); ++frame) {
+            sums[frame] += samples[frame];
+        }
+    }
+    if (sums.empty()) {
+        return std::nullopt;
+    }
+    return summary_of(std::move(sums));
+}
+
+struct Row {
+    std::string name;
+    const BudgetRow* budget = nullptr;  ///< nullptr: the budget has no row of that name
+    std::vector<std::string> effects;
+    std::vector<std::size_t> passes;
+    bool any_in = false;
+    std::string why_out;  ///< why the first of its effects is out
+};
+
+/// Rows of the plan's effects in plan order, then the rest of the budget in its own order.
+std::vector<Row> rows_of(const FramePlan& plan, const Budget& budget) {
+    std::vector<Row> rows;
+    const auto row_named = [&](const std::string& row_name) -> Row& {
+        const auto found = std::find_if(rows.begin(), rows.end(), [&](const Row& row) { return row.name == row_name; });
+        if (found != rows.end()) {
+            return *found;
+        }
+        rows.push_back({.name = row_name, .budget = budget.find(row_name), .effects = {}, .passes = {}, .any_in = false,
+                        .why_out = {}});
+        return rows.back();
+    };
+    for (const EffectDecision& decision : plan.effects) {
+        const EffectCard* card = find_effect(decision.effect);
+        Row& row = row_named(card != nullptr ? std::string(card->budget_row) : decision.effect);
+        row.effects.push_back(decision.effect);
+        row.any_in = row.any_in || decision.in;
+        if (!decision.in && row.why_out.empty()) {
+            row.why_out = decision.why;
+        }
+        for (std::size_t pass = 0; pass < plan.passes.size(); ++pass) {
+            if (plan.passes[pass].effect == decision.effect) {
+                row.passes.push_back(pass);
+            }
+        }
+    }
+    for (const BudgetRow& row : budget.rows) {
+        row_named(row.name);
+    }
+    return rows;
+}
+
+void judge(BudgetLine& line, const Row& row, const FrameReport& report) {
+    const auto say = [&](Verdict verdict, std::string text) {
+        line.verdict = verdict;
+        line.verdict_text = std::move(text);
+    };
+    if (row.effects.empty()) {
+        say(Verdict::not_built, "not built");
+    } else if (!row.any_in) {
+        say(Verdict::not_called_for, "not called for");
+    } else if (!line.published_ms && !line.ours_ms) {
+        say(Verdict::none, "no row in the budget");
+    } else if (report.caps.software) {
+        say(Verdict::not_judged, line.published_ms ? "not comparable here" : "not judged here");
+    } else if (!line.measured) {
+        say(Verdict::not_measured, "not measured");
+    } else {
+        const double allowed_ms = line.published_high_ms.value_or(line.published_ms.value_or(line.ours_ms.value_or(0.0)));
+        const double over_ms = line.measured->median_ms - allowed_ms;
+        if (over_ms > 0.0) {
+            say(Verdict::over, fmt::format("over by {} ms", ms_text(over_ms)));
+        } else {
+            say(Verdict::within, "within");
+        }
+    }
+}
+
+void add_lines(BudgetTable& table, const Row& row, const FrameReport& report) {
+    BudgetLine line;
+    line.name = row.name;
+    if (row.budget != nullptr) {
+        line.published_ms = row.budget->published_ms;
+        line.published_high_ms = row.budget->published_high_ms;
+        line.ours_ms = row.budget->ours_ms;
+        line.platforms = row.budget->platforms;
+        line.source = row.budget->source;
+        line.note = row.budget->note;
+    }
+    line.measured = measured_together(report, row.passes);
+    for (const std::size_t pass : row.passes) {
+        line.bytes += bytes_written(report.plan, report.plan.passes[pass]);
+    }
+    if (line.measured) {
+        line.share_of_frame = line.measured->median_ms / table.frame_ms;
+    }
+    judge(line, row, report);
+    if (line.verdict == Verdict::not_called_for) {
+        line.note = row.why_out;
+    }
+    table.lines.push_back(std::move(line));
+
+    for (const std::size_t index : row.passes) {
+        const Pass& pass = report.plan.passes[index];
+        BudgetLine pass_line;
+        pass_line.name = pass.name;
+        pass_line.is_pass = true;
+        pass_line.bytes = bytes_written(report.plan, pass);
+        if (report.measurement) {
+            pass_line.measured = report.measurement->passes[index];
+            pass_line.share_of_frame = pass_line.measured->median_ms / table.frame_ms;
+        }
+        table.lines.push_back(std::move(pass_line));
+    }
+}
+
+LimitLine limit_line(std::string line_name, double value, std::optional<double> limit, const char* unit, int digits) {
+    LimitLine line{.name = std::move(line_name), .value = fmt::format("{:.{}f}{}", value, digits, unit), .limit = "none",
+                   .verdict = Verdict::none, .verdict_text = "no limit"};
+    if (limit) {
+        line.limit = fmt::format("{:.{}f}{}", *limit, digits, unit);
+        line.verdict = value > *limit ? Verdict::over : Verdict::within;
+        line.verdict_text = value > *limit ? fmt::format("over by {:.{}f}{}", value - *limit, digits, unit) : "within";
+    }
+    return line;
+}
+
+void add_limits(BudgetTable& table, const FrameReport& report, const Budget& budget, bool judge_frame) {
+    constexpr double kMiB = 1024.0 * 1024.0;
+    if (report.measurement) {
+        LimitLine frame = limit_line("frame", report.measurement->frame.median_ms, budget.frame_ms, " ms", 2);
+        if (report.caps.software && !judge_frame) {
+            frame.verdict = Verdict::not_judged;
+            frame.verdict_text = "not judged here (name a --budget to judge it)";
+        }
+        table.limits.push_back(std::move(frame));
+    } else {
+        table.limits.push_back({.name = "frame", .value = "-", .limit = fmt::format("{:.2f} ms", budget.frame_ms),
+                                .verdict = Verdict::not_measured, .verdict_text = "not measured"});
+    }
+    table.limits.push_back(
+        limit_line("targets", static_cast<double>(report.plan.target_bytes()) / kMiB, budget.target_mib, " MiB", 2));
+    table.limits.push_back(
+        limit_line("textures", static_cast<double>(report.texture_bytes) / kMiB, budget.texture_mib, " MiB", 2));
+    table.limits.push_back(limit_line("draws", static_cast<double>(report.frame_calls.draws()),
+                                      budget.draws ? std::optional<double>(*budget.draws) : std::nullopt, "", 0));
+}
+
+}  // namespace
+
+const char* name(Verdict verdict) {
+    switch (verdict) {
+        case Verdict::none: return "none";
+        case Verdict::within: return "within";
+        case Verdict::over: return "over";
+        case Verdict::not_built: return "not_built";
+        case Verdict::not_called_for: return "not_called_for";
+        case Verdict::not_measured: return "not_measured";
+        case Verdict::not_judged: return "not_judged";
+    }
+    return "none";
+}
+
+bool BudgetTable::exceeded() const {
+    const auto is_over = [](const auto& line) { return line.verdict == Verdict::over; };
+    return std::any_of(lines.begin(), lines.end(), is_over) || std::any_of(limits.begin(), limits.end(), is_over);
+}
+
+bool BudgetTable::repeats_its_row(std::size_t index) const {
+    const bool is_only_pass = lines[index].is_pass && !lines[index - 1].is_pass &&
+                              (index + 1 == lines.size() || !lines[index + 1].is_pass);
+    return is_only_pass && lines[index].name == lines[index - 1].name;
+}
+
+BudgetTable budget_table(const FrameReport& report, const Budget& budget, bool judge_frame) {
+    BudgetTable table{.budget = budget.name, .frame_ms = budget.frame_ms, .lines = {}, .limits = {}};
+    for (const Row& row : rows_of(report.plan, budget)) {
+        add_lines(table, row, report);
+    }
+    add_limits(table, report, budget, judge_frame);
+    return table;
+}
+
+}  // namespace halfframe::perf

@@ -1,0 +1,278 @@
+// One page that stands alone. Bars are drawn against the frame of the budget; past its end a bar is cut and striped.
+#include "perf/report/html_page.h"
+
+#include <algorithm>
+#include <cctype>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "perf/report/picture_file.h"
+#include "perf/report/text_report.h"
+#include "perf/report/text_table.h"
+
+namespace halfframe::perf {
+namespace {
+
+constexpr std::string_view kStyle = R"css(
+:root { color-scheme: light dark; --ink: #1b1d22; --soft: #5b616e; --paper: #fbfbf9; --line: #d9dbe0; --band: #f0f1f3;
+  --bar: #2f6f9f; --over: #b3401f; --good: #2c6e3f; --focus: #b3621f; }
+@media (prefers-color-scheme: dark) { :root { --ink: #e4e6ea; --soft: #a2a8b4; --paper: #16181c; --line: #363a43;
+  --band: #1e2126; --bar: #6fb1e0; --over: #f0906c; --good: #86c897; --focus: #f0b06c; } }
+* { box-sizing: border-box; }
+body { margin: 0 auto; max-width: 76rem; padding: 1.5rem 1.25rem 4rem; background: var(--paper); color: var(--ink);
+  font: 1rem/1.5 system-ui, "Segoe UI", "Liberation Sans", sans-serif; }
+h1 { font-size: 1.5rem; margin: 0 0 .25rem; }
+h2 { font-size: 1.3rem; margin: 3rem 0 .5rem; padding-top: 1rem; border-top: 1px solid var(--line); }
+h3 { font-size: 1.05rem; margin: 1.75rem 0 .5rem; }
+p { margin: .35rem 0; max-width: 60rem; }
+.soft, caption, figcaption, small { color: var(--soft); }
+nav a { margin-right: 1rem; }
+a { color: var(--bar); }
+:focus-visible { outline: 3px solid var(--focus); outline-offset: 2px; }
+figure { margin: 1rem 0; }
+img { display: block; max-width: 100%; height: auto; border: 1px solid var(--line); }
+.wide { overflow-x: auto; }
+table { border-collapse: collapse; width: 100%; font-size: .875rem; font-variant-numeric: tabular-nums; }
+caption { text-align: left; padding: .25rem 0; }
+th, td { text-align: left; padding: .25rem .6rem .25rem 0; border-bottom: 1px solid var(--line); vertical-align: top; }
+thead th { border-bottom: 2px solid var(--line); color: var(--soft); font-weight: 600; vertical-align: bottom; }
+tbody th { font-weight: 600; } tr.pass th { font-weight: 400; padding-left: 1.1rem; }
+.number { text-align: right; white-space: nowrap; }
+.bar { min-width: 9rem; } .bar span { display: block; height: .8rem; margin-top: .3rem; background: var(--bar); }
+.bar div { background: var(--band); } tr.pass .bar span { height: .5rem; margin-top: .4rem; opacity: .75; }
+.bar .past { background: repeating-linear-gradient(135deg, var(--over) 0 6px, var(--bar) 6px 12px); }
+.over { color: var(--over); font-weight: 600; } .within { color: var(--good); }
+.out td, .out th { color: var(--soft); }
+pre { overflow-x: auto; padding: .6rem .8rem; background: var(--band); font: .85rem/1.45 ui-monospace, "DejaVu Sans Mono", monospace; }
+ol.sources { font-size: .875rem; padding-left: 1.4rem; } summary { cursor: pointer; }
+@media print { body { max-width: none; } }
+)css";
+
+std::string anchor(const std::string& text, std::size_t index) {
+    std::string id = fmt::format("scene-{}-", index + 1);
+    for (const char character : text) {
+        id += std::isalnum(static_cast<unsigned char>(character)) != 0 ? character : '-';
+    }
+    return id;
+}
+
+std::string cell(const std::string& text, const char* style = "") {
+    return *style == '\0' ? "<td>" + html_escaped(text) + "</td>"
+                          : fmt::format("<td class=\"{}\">{}</td>", style, html_escaped(text));
+}
+
+std::string header(std::initializer_list<std::pair<const char*, bool>> titles) {
+    std::string row = "<thead><tr>";
+    for (const auto& [title, is_number] : titles) {
+        row += fmt::format("<th scope=\"col\"{}>{}</th>", is_number ? " class=\"number\"" : "", html_escaped(title));
+    }
+    return row + "</tr></thead>\n";
+}
+
+const char* style_of(Verdict verdict) {
+    return verdict == Verdict::over ? "over" : verdict == Verdict::within ? "within" : "";
+}
+
+std::string bar(const BudgetLine& line) {
+    if (!line.share_of_frame) {
+        return "<td class=\"bar\"></td>";
+    }
+    const double percent = 100.0 * *line.share_of_frame;
+    // The number stands in the column beside it; the bar is for the eye alone.
+    return fmt::format("<td class=\"bar\" aria-hidden=\"true\"><div><span{} style=\"width:{:.2f}%\"></span></div></td>",
+                       percent > 100.0 ? " class=\"past\"" : "", std::clamp(percent, 0.3, 100.0));
+}
+
+/// Distinct sources in order of appearance; the number of `source` in the list, 0 for an empty one.
+std::size_t source_number(std::vector<std::string>& sources, const BudgetLine& line) {
+    if (line.source.empty()) {
+        return 0;
+    }
+    const std::string text = line.platforms.empty() ? line.source : line.platforms + ": " + line.source;
+    const auto found = std::find(sources.begin(), sources.end(), text);
+    if (found != sources.end()) {
+        return static_cast<std::size_t>(found - sources.begin()) + 1;
+    }
+    sources.push_back(text);
+    return sources.size();
+}
+
+std::string budget_rows(const BudgetTable& table, std::vector<std::string>& sources, const std::string& id) {
+    std::string rows;
+    for (std::size_t index = 0; index < table.lines.size(); ++index) {
+        if (table.repeats_its_row(index)) {
+            continue;
+        }
+        const BudgetLine& line = table.lines[index];
+        const bool out = line.verdict == Verdict::not_built || line.verdict == Verdict::not_called_for;
+        const std::size_t number = source_number(sources, line);
+        rows += fmt::format("<tr class=\"{}\"><th scope=\"row\">{}", line.is_pass ? "pass" : out ? "out" : "row",
+                            html_escaped(line.name));
+        if (number > 0) {
+            rows += fmt::format(" <a href=\"#{0}-source-{1}\" aria-label=\"source {1}\">[{1}]</a>", id, number);
+        }
+        rows += "</th>" + cell(published_text(line), "number");
+        rows += cell(line.ours_ms ? ms_text(*line.ours_ms) : "-", "number");
+        rows += cell("-", "number") + cell("-", "number") + cell("-", "number");
+        rows += cell(line.measured ? ms_text(line.measured->median_ms) : "-", "number");
+        rows += cell(line.measured ? ms_text(line.measured->low_ms) + " to " + ms_text(line.measured->high_ms) : "-",
+                     "number");
+        rows += cell(line.share_of_frame ? fmt::format("{:.1f} %", 100.0 * *line.share_of_frame) : "-", "number");
+        rows += bar(line);
+        rows += cell(line.bytes > 0 ? bytes_text(line.bytes) : "-", "number");
+        rows += cell(line.verdict_text, style_of(line.verdict)) + "</tr>\n";
+    }
+    return rows;
+}
+
+std::string budget_section(const FrameReport& report, const BudgetTable& table, const std::string& id) {
+    std::string html = "<h3>Milliseconds</h3>\n";
+    html += fmt::format("<p>{}</p>\n",
+                        report.measurement
+                            ? html_escaped(fmt::format("Measured here: median of {} frames after a first one, with the "
+                                                       "25th to 75th percentile; {}.",
+                                                       report.measurement->frame.frames,
+                                                       report.measurement->calibration.sentence))
+                            : "Nothing was measured.");
+    html += fmt::format("<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"milliseconds\"><table><caption>Budget {}. Bars "
+                        "are shares of its frame, {} ms. Published figures are of the named console, ours are allowances "
+                        "on it, modelled ones do not exist yet; none is ever mixed with what was measured here.{}"
+                        "</caption>\n",
+                        html_escaped(table.budget), ms_text(table.frame_ms),
+                        report.caps.software
+                            ? " This is a software driver: its times are a CPU's, so no console's row is judged by them."
+                            : "");
+    const std::string share = "of " + ms_text(table.frame_ms) + " ms";
+    html += header({{"row, passes", false},
+                    {"published ms", true},
+                    {"ours ms", true},
+                    {"modelled ps3", true},
+                    {"modelled x360", true},
+                    {"modelled es2", true},
+                    {"here ms", true},
+                    {"p25 to p75", true},
+                    {share.c_str(), true},
+                    {"", false},
+                    {"writes", true},
+                    {"verdict", false}});
+    std::vector<std::string> sources;
+    html += "<tbody>" + budget_rows(table, sources, id) + "</tbody></table></div>\n";
+
+    html += "<h3>Limits of the frame</h3>\n<div class=\"wide\"><table>" +
+            header({{"limit", false}, {"here", true}, {"limit", true}, {"verdict", false}}) + "<tbody>";
+    for (const LimitLine& line : table.limits) {
+        html += fmt::format("<tr><th scope=\"row\">{}</th>", html_escaped(line.name)) + cell(line.value, "number") +
+                cell(line.limit, "number") + cell(line.verdict_text, style_of(line.verdict)) + "</tr>\n";
+    }
+    html += "</tbody></table></div>\n";
+    if (!sources.empty()) {
+        html += "<h3>Sources</h3>\n<ol class=\"sources\">";
+        for (std::size_t index = 0; index < sources.size(); ++index) {
+            html += fmt::format("<li id=\"{}-source-{}\">{}</li>\n", id, index + 1, html_escaped(sources[index]));
+        }
+        html += "</ol>\n";
+    }
+    return html;
+}
+
+std::string effects_section(const FramePlan& plan) {
+    std::string html = "<h3>Effects, in and out</h3>\n<div class=\"wide\"><table>" +
+                       header({{"effect", false}, {"", false}, {"tier", false}, {"why", false}}) + "<tbody>";
+    for (const EffectDecision& effect : plan.effects) {
+        html += fmt::format("<tr class=\"{}\"><th scope=\"row\">{}</th>", effect.in ? "in" : "out",
+                            html_escaped(effect.effect)) +
+                cell(effect.in ? "in" : "out") + cell(effect.in ? halfframe::name(effect.tier) : "-") +
+                cell(effect.why) + "</tr>\n";
+    }
+    return html + "</tbody></table></div>\n";
+}
+
+std::string scene_section(const PageScene& scene, std::size_t index) {
+    const FrameReport& report = *scene.report;
+    const std::string id = anchor(report.scene, index);
+    std::string html = fmt::format("<section aria-labelledby=\"{0}\"><h2 id=\"{0}\">{1}</h2>\n", id,
+                                   html_escaped(report.scene));
+    html += "<p>" + html_escaped(configuration_text(report.plan)) + "</p>\n";
+    html += fmt::format("<figure><img alt=\"{} rendered\" width=\"{}\" height=\"{}\" src=\"data:image/png;base64,{}\">"
+                        "<figcaption>{}</figcaption></figure>\n",
+                        html_escaped(report.scene), report.display.width, report.display.height,
+                        base64(png_bytes(report.display)), html_escaped(report.picture_file));
+    html += budget_section(report, *scene.budget, id);
+    html += effects_section(report.plan);
+    html += "<h3>Plan</h3>\n<details><summary>Passes and targets of the frame</summary><pre tabindex=\"0\">" +
+            html_escaped(plan_text(report.plan)) + "</pre></details>\n";
+    if (report.census) {
+        html += "<h3>Census</h3>\n<pre tabindex=\"0\">" + html_escaped(census_text(*report.census)) + "</pre>\n";
+    }
+    if (!report.notices.empty()) {
+        html += "<h3>Notices</h3>\n<ul>";
+        for (const std::string& notice : report.notices) {
+            html += "<li>" + html_escaped(notice) + "</li>\n";
+        }
+        html += "</ul>\n";
+    }
+    html += "<h3>Make this again</h3>\n<pre tabindex=\"0\">" + html_escaped(report.reproduce) + "</pre>\n</section>\n";
+    return html;
+}
+
+}  // namespace
+
+std::string html_escaped(const std::string& text) {
+    std::string result;
+    for (const char character : text) {
+        switch (character) {
+            case '&': result += "&amp;"; break;
+            case '<': result += "&lt;"; break;
+            case '>': result += "&gt;"; break;
+            case '"': result += "&quot;"; break;
+            default: result += character;
+        }
+    }
+    return result;
+}
+
+std::string base64(const std::vector<std::uint8_t>& bytes) {
+    constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    text.reserve((bytes.size() + 2) / 3 * 4);
+    for (std::size_t at = 0; at < bytes.size(); at += 3) {
+        const std::size_t there = std::min<std::size_t>(3, bytes.size() - at);
+        std::uint32_t group = 0;
+        for (std::size_t index = 0; index < 3; ++index) {
+            group = (group << 8) | (index < there ? bytes[at + index] : 0u);
+        }
+        for (std::size_t digit = 0; digit < 4; ++digit) {
+            text += digit <= there ? kDigits[(group >> (18 - 6 * digit)) & 63u] : '=';
+        }
+    }
+    return text;
+}
+
+std::string html_page(const std::vector<PageScene>& scenes) {
+    std::string html =
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>halfframe report</title>\n<style>";
+    html += kStyle;
+    html += "</style>\n</head>\n<body>\n<header><h1>halfframe report</h1>\n";
+    if (!scenes.empty()) {
+        const FrameReport& first = *scenes.front().report;
+        html += "<p class=\"soft\">" + html_escaped(driver_text(first.caps)) + "<br>" + html_escaped(first.context) +
+                "</p>\n";
+    }
+    if (scenes.size() > 1) {
+        html += "<nav aria-label=\"scenes\">";
+        for (std::size_t index = 0; index < scenes.size(); ++index) {
+            const std::string& scene = scenes[index].report->scene;
+            html += fmt::format("<a href=\"#{}\">{}</a>", anchor(scene, index), html_escaped(scene));
+        }
+        html += "</nav>\n";
+    }
+    html += "</header>\n<main>\n";
+    for (std::size_t index = 0; index < scenes.size(); ++index) {
+        html += scene_section(scenes[index], index);
+    }
+    return html + "</main>\n</body>\n</html>\n";
+}
+
+}  // namespace halfframe::perf

@@ -20,7 +20,7 @@ constexpr std::string_view kStyle = R"css(
 @media (prefers-color-scheme: dark) { :root { --ink: #e4e6ea; --soft: #a2a8b4; --paper: #16181c; --line: #363a43;
   --band: #1e2126; --bar: #6fb1e0; --over: #f0906c; --good: #86c897; --focus: #f0b06c; } }
 * { box-sizing: border-box; }
-body { margin: 0 auto; max-width: 76rem; padding: 1.5rem 1.25rem 4rem; background: var(--paper); color: var(--ink);
+body { margin: 0 auto; max-width: 80rem; padding: 1.5rem 1.25rem 4rem; background: var(--paper); color: var(--ink);
   font: 1rem/1.5 system-ui, "Segoe UI", "Liberation Sans", sans-serif; }
 h1 { font-size: 1.5rem; margin: 0 0 .25rem; }
 h2 { font-size: 1.3rem; margin: 3rem 0 .5rem; padding-top: 1rem; border-top: 1px solid var(--line); }
@@ -39,7 +39,10 @@ th, td { text-align: left; padding: .25rem .6rem .25rem 0; border-bottom: 1px so
 thead th { border-bottom: 2px solid var(--line); color: var(--soft); font-weight: 600; vertical-align: bottom; }
 tbody th { font-weight: 600; } tr.pass th { font-weight: 400; padding-left: 1.1rem; }
 .number { text-align: right; white-space: nowrap; }
-.bar { min-width: 9rem; } .bar span { display: block; height: .8rem; margin-top: .3rem; background: var(--bar); }
+th.group { text-align: center; }
+td:last-child { white-space: nowrap; }
+td.why { white-space: normal; }
+.bar { min-width: 7rem; } .bar span { display: block; height: .8rem; margin-top: .3rem; background: var(--bar); }
 .bar div { background: var(--band); } tr.pass .bar span { height: .5rem; margin-top: .4rem; opacity: .75; }
 .bar .past { background: repeating-linear-gradient(135deg, var(--over) 0 6px, var(--bar) 6px 12px); }
 .over { color: var(--over); font-weight: 600; } .within { color: var(--good); }
@@ -135,7 +138,7 @@ std::string budget_section(const FrameReport& report, const BudgetTable& table, 
                                                        report.measurement->frame.frames,
                                                        report.measurement->calibration.sentence))
                             : "Nothing was measured.");
-    html += fmt::format("<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"milliseconds\"><table><caption>Budget {}. Bars "
+    html += fmt::format("<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"milliseconds\"><table><caption>Budget {}, in milliseconds. Bars "
                         "are shares of its frame, {} ms. Published figures are of the named console, ours are allowances "
                         "on it, modelled ones do not exist yet; none is ever mixed with what was measured here.{}"
                         "</caption>\n",
@@ -143,19 +146,19 @@ std::string budget_section(const FrameReport& report, const BudgetTable& table, 
                         report.caps.software
                             ? " This is a software driver: its times are a CPU's, so no console's row is judged by them."
                             : "");
-    const std::string share = "of " + ms_text(table.frame_ms) + " ms";
-    html += header({{"row, passes", false},
-                    {"published ms", true},
-                    {"ours ms", true},
-                    {"modelled ps3", true},
-                    {"modelled x360", true},
-                    {"modelled es2", true},
-                    {"here ms", true},
-                    {"p25 to p75", true},
-                    {share.c_str(), true},
-                    {"", false},
-                    {"writes", true},
-                    {"verdict", false}});
+    html += fmt::format(
+        "<thead><tr><th scope=\"col\" rowspan=\"2\">row, passes</th>"
+        "<th scope=\"col\" rowspan=\"2\" class=\"number\">published</th>"
+        "<th scope=\"col\" rowspan=\"2\" class=\"number\">ours</th>"
+        "<th scope=\"colgroup\" colspan=\"3\" class=\"group\">modelled</th>"
+        "<th scope=\"colgroup\" colspan=\"4\" class=\"group\">measured here</th>"
+        "<th scope=\"col\" rowspan=\"2\" class=\"number\">writes</th>"
+        "<th scope=\"col\" rowspan=\"2\">verdict</th></tr>\n"
+        "<tr><th scope=\"col\" class=\"number\">ps3</th><th scope=\"col\" class=\"number\">x360</th>"
+        "<th scope=\"col\" class=\"number\">es2</th><th scope=\"col\" class=\"number\">median</th>"
+        "<th scope=\"col\" class=\"number\">p25 to p75</th><th scope=\"col\" class=\"number\">of {}</th>"
+        "<th aria-hidden=\"true\"></th></tr></thead>\n",
+        ms_text(table.frame_ms));
     std::vector<std::string> sources;
     html += "<tbody>" + budget_rows(table, sources, id) + "</tbody></table></div>\n";
 
@@ -183,7 +186,7 @@ std::string effects_section(const FramePlan& plan) {
         html += fmt::format("<tr class=\"{}\"><th scope=\"row\">{}</th>", effect.in ? "in" : "out",
                             html_escaped(effect.effect)) +
                 cell(effect.in ? "in" : "out") + cell(effect.in ? halfframe::name(effect.tier) : "-") +
-                cell(effect.why) + "</tr>\n";
+                cell(effect.why, "why") + "</tr>\n";
     }
     return html + "</tbody></table></div>\n";
 }

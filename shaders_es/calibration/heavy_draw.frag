@@ -4,7 +4,7 @@ uniform HALF vec4 seed;  // from outside, so that no compiler can work it out be
 
 void main() {
     float x = vertex_at.x + seed.x;
-    for (int i = 0; i < 200; ++i) {
+    for (int i = 0; i < 200; i++) {
         x = fract(x * 1.5 + vertex_at.y) + seed.y;
     }
     fragment_color = vec4(x);

@@ -121,7 +121,7 @@ void main() {
 #ifdef TIER_LOW
     light += albedo * vertex_light;
 #else
-    for (int i = 0; i < SURFACE_LIGHT_LIMIT; ++i) {
+    for (int i = 0; i < SURFACE_LIGHT_LIMIT; i++) {
         if (float(i) >= light_count.x) break;
         FULL vec3 to_light = light_position[i].xyz + vertex_to_eye;
         FULL float distance_squared = dot(to_light, to_light);

@@ -37,7 +37,7 @@ VERTEX_OUT HALF vec3 vertex_light;
 
 vec3 local_light(vec3 at, vec3 n) {
     vec3 sum = vec3(0.0);
-    for (int i = 0; i < SURFACE_LIGHT_LIMIT; ++i) {
+    for (int i = 0; i < SURFACE_LIGHT_LIMIT; i++) {
         if (float(i) >= light_count.x) break;
         vec3 to_light = light_position[i].xyz - at;
         float distance_squared = dot(to_light, to_light);

@@ -1,7 +1,8 @@
 # Flags that every target of ours has, and the one way to add a library of a room.
 
 # Products are never contracted to fused multiply-adds: pictures and figures must not depend on the compiler's mood.
-set(HALFFRAME_FLAGS -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
+set(HALFFRAME_FLAGS -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+    -Wno-missing-field-initializers)  # designated initialisers leave the defaults out on purpose
 
 # halfframe_library(ROOM SOURCES ... PUBLIC ... PRIVATE ...): a static library halfframe_ROOM, alias halfframe::ROOM.
 function(halfframe_library room)

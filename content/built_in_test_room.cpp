@@ -120,7 +120,7 @@ void add_props(Scene& scene) {
     add_surface(scene, "column", column, add_material(scene, paint("concrete", {0.24f, 0.25f, 0.28f}, 0.85f)),
                 at({1.9f, 0.5f * kHeight, -1.3f}));
 
-    Material bars = metal("grille", glm::vec3(1.0f), 0.5f);
+    Material bars = paint("grille", glm::vec3(1.0f), 0.55f);
     bars.base_color_texture.image = add_image(scene, grille(128, 4));
     bars.alpha_mode = AlphaMode::mask;
     bars.double_sided = true;
@@ -149,7 +149,7 @@ void add_lights(Scene& scene) {
 
     Light cool;
     cool.name = "violet neon";
-    cool.position = {1.2f, 2.4f, -1.7f};
+    cool.position = {1.2f, 2.3f, -1.45f};
     cool.color = glm::vec3(0.50f, 0.42f, 1.30f);
     cool.range_m = 5.0f;
     scene.lights.push_back(cool);

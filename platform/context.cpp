@@ -56,7 +56,9 @@ void complete(Context::Implementation& context) {
     }
 }
 
-Context Context::create(const ContextDescription& description) { return Context(start(description.backend, description)); }
+Context Context::create(const ContextDescription& description) {
+    return Context(start(description.backend, description));
+}
 
 Context::Context(std::unique_ptr<Implementation> implementation) : implementation_(std::move(implementation)) {}
 Context::~Context() = default;

@@ -11,14 +11,14 @@ namespace halfframe::platform {
 
 enum class Backend { automatic, egl, osmesa, glfw };
 
-/// Which language the context speaks. `desktop` is a GL 4.5 core context of the same driver: it runs ES text, and is the
-/// one that counts fragments exactly.
+/// Which language the context speaks. `desktop` is a GL 4.5 core context of the same driver: it runs ES text, and is
+/// the one that counts fragments exactly.
 enum class Api { es, desktop };
 
 struct ContextDescription {
     Backend backend = Backend::automatic;
     Api api = Api::es;
-    int width = 16;    ///< size of the default framebuffer [pixels]; we draw to our own targets
+    int width = 16;  ///< size of the default framebuffer [pixels]; we draw to our own targets
     int height = 16;
     bool visible = false;             ///< GLFW: show the window
     std::string title = "halfframe";  ///< GLFW: window title
@@ -50,8 +50,8 @@ public:
     /// The same as a loader that can be handed to the engine; valid while the context lives.
     [[nodiscard]] std::function<void*(const char*)> loader() const;
 
-    void make_current();  ///< throws ContextError when the context is lost
-    void swap();          ///< shows the default framebuffer (GLFW; nothing elsewhere), polls events
+    void make_current();                      ///< throws ContextError when the context is lost
+    void swap();                              ///< shows the default framebuffer (GLFW; nothing elsewhere), polls events
     [[nodiscard]] bool should_close() const;  ///< GLFW: the user closed the window
 
     [[nodiscard]] Backend backend() const;

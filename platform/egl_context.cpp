@@ -1,4 +1,5 @@
-// EGL: the usual way to a context without a window. Mesa's surfaceless platform, else a device, else the default display.
+// EGL: the usual way to a context without a window. Mesa's surfaceless platform, else a device, else the default
+// display.
 #include <algorithm>
 #include <array>
 #include <span>
@@ -61,10 +62,10 @@ struct EglFunctions {
 /// The name of an EGL error, for sentences.
 std::string error_name(EGLint error) {
     constexpr std::array<const char*, 15> kErrors{
-        "EGL_SUCCESS",     "EGL_NOT_INITIALIZED", "EGL_BAD_ACCESS",        "EGL_BAD_ALLOC",
-        "EGL_BAD_ATTRIBUTE", "EGL_BAD_CONFIG",    "EGL_BAD_CONTEXT",       "EGL_BAD_CURRENT_SURFACE",
-        "EGL_BAD_DISPLAY", "EGL_BAD_MATCH",       "EGL_BAD_NATIVE_PIXMAP", "EGL_BAD_NATIVE_WINDOW",
-        "EGL_BAD_PARAMETER", "EGL_BAD_SURFACE",   "EGL_CONTEXT_LOST"};  // 0x3000 and up, without a gap
+        "EGL_SUCCESS",       "EGL_NOT_INITIALIZED", "EGL_BAD_ACCESS",        "EGL_BAD_ALLOC",
+        "EGL_BAD_ATTRIBUTE", "EGL_BAD_CONFIG",      "EGL_BAD_CONTEXT",       "EGL_BAD_CURRENT_SURFACE",
+        "EGL_BAD_DISPLAY",   "EGL_BAD_MATCH",       "EGL_BAD_NATIVE_PIXMAP", "EGL_BAD_NATIVE_WINDOW",
+        "EGL_BAD_PARAMETER", "EGL_BAD_SURFACE",     "EGL_CONTEXT_LOST"};  // 0x3000 and up, without a gap
     const auto index = static_cast<std::size_t>(error - EGL_SUCCESS);
     return index < kErrors.size() ? kErrors[index] : "EGL error " + std::to_string(error);
 }
@@ -91,21 +92,27 @@ std::vector<Display> displays(const EglFunctions& egl, std::optional<EglRoute> o
     const char* client = egl.query_string(EGL_NO_DISPLAY, EGL_EXTENSIONS);  // null before EGL 1.5
     const auto wanted = [&](EglRoute route) { return !only || *only == route; };
     std::vector<Display> found;
-    if (wanted(EglRoute::surfaceless) && egl.platform_display && has_extension(client, "EGL_MESA_platform_surfaceless")) {
-        found.push_back({egl.platform_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr), "surfaceless"});
+    if (wanted(EglRoute::surfaceless) && egl.platform_display &&
+        has_extension(client, "EGL_MESA_platform_surfaceless")) {
+        found.push_back(
+            {egl.platform_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr), "surfaceless"});
     }
-    const bool devices = has_extension(client, "EGL_EXT_platform_device") &&
-                         (has_extension(client, "EGL_EXT_device_enumeration") || has_extension(client, "EGL_EXT_device_base"));
+    const bool devices =
+        has_extension(client, "EGL_EXT_platform_device") &&
+        (has_extension(client, "EGL_EXT_device_enumeration") || has_extension(client, "EGL_EXT_device_base"));
     if (wanted(EglRoute::device) && egl.platform_display && egl.query_devices && devices) {
         std::array<EGLDeviceEXT, 16> handles{};
         EGLint count = 0;
         if (egl.query_devices(static_cast<EGLint>(handles.size()), handles.data(), &count) == EGL_FALSE) count = 0;
         for (EGLint i = 0; i < count; ++i) {
-            found.push_back({egl.platform_display(EGL_PLATFORM_DEVICE_EXT, handles[static_cast<std::size_t>(i)], nullptr),
-                             "device " + std::to_string(i)});
+            found.push_back(
+                {egl.platform_display(EGL_PLATFORM_DEVICE_EXT, handles[static_cast<std::size_t>(i)], nullptr),
+                 "device " + std::to_string(i)});
         }
     }
-    if (wanted(EglRoute::default_display)) found.push_back({egl.get_display(EGL_DEFAULT_DISPLAY), "default display", true});
+    if (wanted(EglRoute::default_display)) {
+        found.push_back({egl.get_display(EGL_DEFAULT_DISPLAY), "default display", true});
+    }
     return found;
 }
 
@@ -128,8 +135,8 @@ public:
     }
 
     ~EglContext() override {
-        // eglTerminate is never called: every EGL user of the process that asks for the same platform shares this display,
-        // and ending it would end their contexts too. EGL itself frees it at exit.
+        // eglTerminate is never called: every EGL user of the process that asks for the same platform shares this
+        // display, and ending it would end their contexts too. EGL itself frees it at exit.
         if (context_ != EGL_NO_CONTEXT && egl_.current_context() == context_) {
             egl_.make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
         }
@@ -141,11 +148,15 @@ public:
     std::string start(const ContextDescription& description, const Version& version) {
         api_ = version.api == Api::es ? EGL_OPENGL_ES_API : EGL_OPENGL_API;
         if (egl_.bind_api(api_) == EGL_FALSE) return failure("eglBindAPI");
-        const bool surfaceless = has_extension(egl_.query_string(display_, EGL_EXTENSIONS), "EGL_KHR_surfaceless_context");
+        const bool surfaceless =
+            has_extension(egl_.query_string(display_, EGL_EXTENSIONS), "EGL_KHR_surfaceless_context");
         const bool pbuffer = always_pbuffer_ || !surfaceless;
 
-        const EGLint wish[] = {EGL_SURFACE_TYPE, pbuffer ? EGL_PBUFFER_BIT : 0, EGL_RENDERABLE_TYPE, version.renderable,
+        // clang-format off
+        const EGLint wish[] = {EGL_SURFACE_TYPE, pbuffer ? EGL_PBUFFER_BIT : 0,
+                               EGL_RENDERABLE_TYPE, version.renderable,
                                EGL_RED_SIZE, 8, EGL_GREEN_SIZE, 8, EGL_BLUE_SIZE, 8, EGL_NONE};
+        // clang-format on
         EGLConfig config = nullptr;
         EGLint count = 0;
         if (egl_.choose_config(display_, wish, &config, 1, &count) == EGL_FALSE) return failure("eglChooseConfig");
@@ -158,14 +169,18 @@ public:
         }
         // ES takes the major version alone, which EGL 1.4 knows as EGL_CONTEXT_CLIENT_VERSION.
         const EGLint es[] = {EGL_CONTEXT_CLIENT_VERSION, version.major, EGL_NONE};
-        const EGLint desktop[] = {EGL_CONTEXT_MAJOR_VERSION, version.major, EGL_CONTEXT_MINOR_VERSION, version.minor,
+        // clang-format off
+        const EGLint desktop[] = {EGL_CONTEXT_MAJOR_VERSION, version.major,
+                                  EGL_CONTEXT_MINOR_VERSION, version.minor,
                                   EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
+        // clang-format on
         context_ = egl_.create_context(display_, config, EGL_NO_CONTEXT, version.api == Api::es ? es : desktop);
         if (context_ == EGL_NO_CONTEXT) return failure((std::string("eglCreateContext for ") + version.what).c_str());
         if (!bind()) return failure("eglMakeCurrent");
         // Before EGL 1.5, eglGetProcAddress need not know the core functions: those come from the GL library itself.
-        gl_library_ = SharedLibrary::open_if_there(version.api == Api::es ? std::span<const char* const>(kEsNames)
-                                                                          : std::span<const char* const>(kDesktopNames));
+        gl_library_ =
+            SharedLibrary::open_if_there(version.api == Api::es ? std::span<const char* const>(kEsNames)
+                                                                : std::span<const char* const>(kDesktopNames));
         return {};
     }
 
@@ -206,7 +221,8 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Context::Implementation> start_egl(const ContextDescription& description, std::optional<EglRoute> only) {
+std::unique_ptr<Context::Implementation> start_egl(const ContextDescription& description,
+                                                   std::optional<EglRoute> only) {
     const SharedLibrary library = SharedLibrary::open("EGL", kNames, kRemedy);
     const EglFunctions egl(library);
     const std::span<const Version> versions =

@@ -88,8 +88,9 @@ public:
             throw ContextError("GLFW cannot start: " + glfw_.error_text() + "; " + kNoWindowRemedy);
         }
         std::string reasons;
-        const std::span<const Request> requests =
-            description.api == Api::es ? std::span<const Request>(kEsRequests) : std::span<const Request>(kDesktopRequests);
+        const std::span<const Request> requests = description.api == Api::es
+                                                      ? std::span<const Request>(kEsRequests)
+                                                      : std::span<const Request>(kDesktopRequests);
         for (const Request& request : requests) {
             window_ = open_window(description, request);
             if (window_ != nullptr) {

@@ -23,8 +23,8 @@ struct Context::Implementation {
     [[nodiscard]] virtual bool should_close() const { return false; }
 
     Backend backend = Backend::automatic;
-    std::string how;          ///< "EGL 1.5 surfaceless (Mesa Project)": the part of the description before the version
-    std::string summary;      ///< how and GL_VERSION
+    std::string how;      ///< "EGL 1.5 surfaceless (Mesa Project)": the part of the description before the version
+    std::string summary;  ///< how and GL_VERSION
     std::vector<std::string> tried;
 };
 

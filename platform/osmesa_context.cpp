@@ -1,4 +1,4 @@
-// OSMesa: Mesa's rasteriser drawing to plain memory. Needs no display, no device file and no EGL. Removed from Mesa 25.1.
+// OSMesa: Mesa's rasteriser drawing to plain memory. Needs no display, no device file and no EGL. Mesa 25.1 removed it.
 #include <array>
 #include <cstdint>
 
@@ -42,19 +42,22 @@ public:
     /// Mesa without LLVM gives, runs 100 alone.
     void start() {
         for (const std::array<int, 2> version : {std::array{4, 5}, std::array{3, 3}}) {
-            const int attributes[] = {OSMESA_FORMAT,       OSMESA_RGBA,
-                                      OSMESA_DEPTH_BITS,   24,
+            // clang-format off
+            const int attributes[] = {OSMESA_FORMAT, OSMESA_RGBA,
+                                      OSMESA_DEPTH_BITS, 24,
                                       OSMESA_STENCIL_BITS, 8,
-                                      OSMESA_PROFILE,      OSMESA_CORE_PROFILE,
+                                      OSMESA_PROFILE, OSMESA_CORE_PROFILE,
                                       OSMESA_CONTEXT_MAJOR_VERSION, version[0],
                                       OSMESA_CONTEXT_MINOR_VERSION, version[1],
                                       0};
+            // clang-format on
             context_ = create_(attributes, nullptr);
             if (context_ != nullptr) break;
         }
         if (context_ == nullptr) {
-            throw ContextError("OSMesa cannot start: it makes neither a GL 4.5 nor a GL 3.3 core context; "
-                               "install the Debian package libosmesa6 of Debian 12");
+            throw ContextError(
+                "OSMesa cannot start: it makes neither a GL 4.5 nor a GL 3.3 core context; "
+                "install the Debian package libosmesa6 of Debian 12");
         }
         if (!bind()) {
             throw ContextError("OSMesa cannot start: it refuses a drawing buffer of " + std::to_string(width_) + "x" +

@@ -7,8 +7,9 @@ namespace halfframe::platform {
 
 namespace {
 
-// RTLD_LOCAL: libOSMesa exports the whole of GL under the same names as libGL and libGLESv2, and nobody else may see them.
-// RTLD_DEEPBIND is not needed (libOSMesa calls none of those names through the linker) and the sanitizers forbid it.
+// RTLD_LOCAL: libOSMesa exports the whole of GL under the same names as libGL and libGLESv2, and nobody else may see
+// them. RTLD_DEEPBIND is not needed (libOSMesa calls none of those names through the linker) and the sanitizers forbid
+// it.
 constexpr int kOpenFlags = RTLD_NOW | RTLD_LOCAL;
 
 }  // namespace

@@ -8,8 +8,8 @@
 
 namespace halfframe::platform {
 
-/// An open library. It is deliberately never closed: drivers register per-thread and at-exit work that points into them,
-/// and unloading one under it crashes. Opening twice gives the same library, so nothing grows.
+/// An open library. It is deliberately never closed: drivers register per-thread and at-exit work that points into
+/// them, and unloading one under it crashes. Opening twice gives the same library, so nothing grows.
 class SharedLibrary {
 public:
     SharedLibrary() = default;

@@ -3,8 +3,8 @@
 
 #include <cstdlib>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include "content/content.h"
 
@@ -38,16 +38,18 @@ std::filesystem::path cache_folder(const std::string& wished) {
 
 void add_drawing_options(CLI::App& command, DrawingOptions& options) {
     command
-        .add_option("--measure", options.measured_frames,
-                    "Frames to time after a first one, 0 to 100000; 0: time nothing. The table shows the median and the "
-                    "25th to 75th percentile [ms]")
+        .add_option(
+            "--measure", options.measured_frames,
+            "Frames to time after a first one, 0 to 100000; 0: time nothing. The table shows the median and the "
+            "25th to 75th percentile [ms]")
         ->type_name("N")
         ->check(CLI::Range(0, 100000).description(""))
         ->capture_default_str();
     command
-        .add_option("--budget", options.budget,
-                    "Budget by name or .json file: rows [ms], frame [ms], memory [MiB], draws. A budget named here judges "
-                    "the frame's time on a software driver too. Default: ps3_30fps")
+        .add_option(
+            "--budget", options.budget,
+            "Budget by name or .json file: rows [ms], frame [ms], memory [MiB], draws. A budget named here judges "
+            "the frame's time on a software driver too. Default: ps3_30fps")
         ->type_name("NAME|FILE");
     command.add_flag("--census", options.census,
                      "Draw once more with every target RGBA32F and count NaN and inf; exit 1 when there is one");
@@ -55,7 +57,8 @@ void add_drawing_options(CLI::App& command, DrawingOptions& options) {
         .add_option("--cache", options.cache,
                     "Folder for program binaries, or none. Default: $XDG_CACHE_HOME/halfframe or ~/.cache/halfframe")
         ->type_name("DIR|none");
-    command.add_flag("--json", options.json, "Standard output is one JSON value; everything else goes to standard error");
+    command.add_flag("--json", options.json,
+                     "Standard output is one JSON value; everything else goes to standard error");
 }
 
 perf::DrawRequest draw_request(const DrawingOptions& options, Progress& progress) {
@@ -76,8 +79,7 @@ DrawnScene draw_with_options(GraphicsDevice& device, const std::string& scene, c
     request.between("opening " + scene);
     const OpenedScene opened = open_with_options(scene, options, device.caps());
     DrawnScene drawn;
-    drawn.result =
-        perf::draw_scene(device.gl(), device.caps(), opened.scene, opened.view, opened.wishes, request);
+    drawn.result = perf::draw_scene(device.gl(), device.caps(), opened.scene, opened.view, opened.wishes, request);
     perf::FrameReport& report = drawn.result.report;
     report.scene = opened.label;
     report.context = device.context().description();
@@ -104,7 +106,8 @@ int verdict(const DrawnScene& drawn) {
     }
     for (const CensusRow& row : drawn.result.report.census.value_or(std::vector<CensusRow>{})) {
         if (row.nan + row.inf > 0) {
-            fail(fmt::format("{}: {} holds {} NaN and {} inf", drawn.result.report.scene, row.target, row.nan, row.inf));
+            fail(
+                fmt::format("{}: {} holds {} NaN and {} inf", drawn.result.report.scene, row.target, row.nan, row.inf));
         }
     }
     return code;

@@ -33,8 +33,9 @@ struct DrawnScene {
 };
 
 /// Opens, draws and judges one scene; its notices go to standard error.
-[[nodiscard]] DrawnScene draw_with_options(GraphicsDevice& device, const std::string& scene, const SceneOptions& options,
-                                           const DrawingOptions& drawing, const perf::DrawRequest& request);
+[[nodiscard]] DrawnScene draw_with_options(GraphicsDevice& device, const std::string& scene,
+                                           const SceneOptions& options, const DrawingOptions& drawing,
+                                           const perf::DrawRequest& request);
 
 /// 1 when a judged limit was exceeded or the census found NaN or inf, with a sentence on standard error; else 0.
 [[nodiscard]] int verdict(const DrawnScene& drawn);

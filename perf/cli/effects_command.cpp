@@ -1,6 +1,6 @@
 // halfframe effects: the cards.
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "engine/frame/effect_card.h"
@@ -16,7 +16,8 @@ constexpr std::size_t kLineWidth = 118;
 const char* name(EffectKind kind) { return kind == EffectKind::pass ? "pass" : "material"; }
 
 std::string field(const char* title, std::string_view text, std::size_t indent) {
-    return std::string(indent, ' ') + perf::wrapped(fmt::format("{}: {}", title, text), kLineWidth - indent, indent + 4) + "\n";
+    return std::string(indent, ' ') +
+           perf::wrapped(fmt::format("{}: {}", title, text), kLineWidth - indent, indent + 4) + "\n";
 }
 
 std::string card_text(const EffectCard& card) {
@@ -32,8 +33,9 @@ std::string card_text(const EffectCard& card) {
         text += field("seen", tier.eye, 4);
         text += field("writes", tier.targets, 4);
         for (const ShaderVariant& variant : tier.shaders) {
-            text += field("shader", fmt::format("{} + {}{}{}", variant.vertex, variant.fragment,
-                                                variant.defines.empty() ? "" : ", variants ", variant.defines),
+            text += field("shader",
+                          fmt::format("{} + {}{}{}", variant.vertex, variant.fragment,
+                                      variant.defines.empty() ? "" : ", variants ", variant.defines),
                           4);
         }
     }

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <filesystem>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <CLI/CLI.hpp>
 
 #include "content/content.h"
 #include "engine/error.h"
@@ -28,16 +28,18 @@ gl::DeviceProfile profile_named(const std::string& device) {
 
 void add_device_options(CLI::App& command, DeviceOptions& options) {
     command
-        .add_option("--context", options.context,
-                    "Back end: auto (EGL, then OSMesa, then GLFW), egl, osmesa, glfw, or desktop: a desktop GL 4.5 core "
-                    "context of the same driver, the one that counts fragments exactly")
+        .add_option(
+            "--context", options.context,
+            "Back end: auto (EGL, then OSMesa, then GLFW), egl, osmesa, glfw, or desktop: a desktop GL 4.5 core "
+            "context of the same driver, the one that counts fragments exactly")
         ->type_name("NAME")
         ->capture_default_str();
     command
-        .add_option("--device", options.device,
-                    fmt::format("Device to imitate: {}, or a .json file with its version, extensions and limits. A mask "
-                                "only takes away",
-                                fmt::join(content::device_profile_names(), ", ")))
+        .add_option(
+            "--device", options.device,
+            fmt::format("Device to imitate: {}, or a .json file with its version, extensions and limits. A mask "
+                        "only takes away",
+                        fmt::join(content::device_profile_names(), ", ")))
         ->type_name("NAME|FILE")
         ->capture_default_str();
 }
@@ -56,8 +58,7 @@ platform::ContextDescription context_description(const DeviceOptions& options) {
     } else if (options.context == "glfw") {
         description.backend = platform::Backend::glfw;
     } else {
-        throw Error(Fault::usage,
-                    unknown("context", options.context, {"auto", "egl", "osmesa", "glfw", "desktop"}));
+        throw Error(Fault::usage, unknown("context", options.context, {"auto", "egl", "osmesa", "glfw", "desktop"}));
     }
     return description;
 }

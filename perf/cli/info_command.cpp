@@ -1,7 +1,7 @@
 // halfframe info: what this machine and driver really do, found by asking and by drawing.
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "content/content.h"
@@ -111,8 +111,9 @@ void print_findings(const Findings& found) {
     const gl::Caps& caps = found.caps;
     print(fmt::format("context: {}\nrenderer: {}\nvendor: {}\nversion: {}\n", found.context, caps.renderer, caps.vendor,
                       caps.version));
-    print(fmt::format("device: {} (rules of ES {}.{}{}{}){}\n\n", caps.device, caps.es_version / 10, caps.es_version % 10,
-                      caps.desktop ? ", a desktop context running ES text" : "", caps.core_profile ? ", core profile" : "",
+    print(fmt::format("device: {} (rules of ES {}.{}{}{}){}\n\n", caps.device, caps.es_version / 10,
+                      caps.es_version % 10, caps.desktop ? ", a desktop context running ES text" : "",
+                      caps.core_profile ? ", core profile" : "",
                       caps.software ? ", a software driver: times are the CPU's" : ""));
 
     perf::TextTable tiers({{"tier"}, {"runs"}, {"how, or why not"}});
@@ -135,8 +136,8 @@ void print_findings(const Findings& found) {
     print(formats.text() + "\n");
     print(fmt::format("timing: {}; {}\n\n", halfframe::name(found.timing.method), found.timing.sentence));
     print(limits_text(caps) + "\n" + abilities_text(caps) + "\n");
-    print(perf::wrapped(fmt::format("extensions ({}): {}", caps.extensions.size(), fmt::join(caps.extensions, " ")), 118,
-                        4) +
+    print(perf::wrapped(fmt::format("extensions ({}): {}", caps.extensions.size(), fmt::join(caps.extensions, " ")),
+                        118, 4) +
           "\n");
 }
 
@@ -178,7 +179,8 @@ class InfoCommand : public Command {
 public:
     explicit InfoCommand(CLI::App& app) {
         CLI::App& command = *app.add_subcommand(
-            "info", "Shows the driver, what it can do, which tiers run, what half precision really is, and how time is taken");
+            "info",
+            "Shows the driver, what it can do, which tiers run, what half precision really is, and how time is taken");
         add_device_options(command, options_);
         command.add_flag("--json", json_, "Standard output is one JSON value; everything else goes to standard error");
         command.footer(kExitCodes);

@@ -7,8 +7,8 @@
 #include <new>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include "engine/error.h"
 #include "perf/cli/command.h"
@@ -45,9 +45,10 @@ std::vector<std::string> option_names(const CLI::App& command) {
     const std::string of = command != nullptr ? command->get_name() : "";
     if (word.starts_with('-')) {
         const std::string bare = word.substr(0, word.find('='));
-        throw Error(Fault::usage, fmt::format("{}; see halfframe {}{}--help",
-                                              unknown("option", bare, option_names(command != nullptr ? *command : app)), of,
-                                              of.empty() ? "" : " "));
+        throw Error(Fault::usage,
+                    fmt::format("{}; see halfframe {}{}--help",
+                                unknown("option", bare, option_names(command != nullptr ? *command : app)), of,
+                                of.empty() ? "" : " "));
     }
     if (command != nullptr) {
         throw Error(Fault::usage, fmt::format("'{}' is one argument too many for halfframe {}; see --help", word, of));
@@ -71,9 +72,10 @@ void refuse_leftovers(const CLI::App& app) {
 }
 
 int run(int argument_count, char** arguments) {
-    CLI::App app("halfframe: a renderer for console- and mobile-class budgets. Draws without a window, and says what each "
-                 "pass costs.",
-                 "halfframe");
+    CLI::App app(
+        "halfframe: a renderer for console- and mobile-class budgets. Draws without a window, and says what each "
+        "pass costs.",
+        "halfframe");
     app.formatter(std::make_shared<HelpFormatter>());  // CLI11 wants to share it
     app.set_version_flag("--version", "halfframe " HALFFRAME_VERSION, "Print the version and stop");
     app.footer(kExitCodes);

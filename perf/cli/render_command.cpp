@@ -1,8 +1,8 @@
 // halfframe render SCENE: one picture and what it cost.
 #include <filesystem>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "engine/error.h"
@@ -34,7 +34,8 @@ public:
                         "Write every GL call of preparing and of exactly one frame as JSON, byte-stable between runs; "
                         "without timing and without the program cache")
             ->type_name("FILE");
-        command.add_flag("--ledger", ledger_, "Print the GL calls of preparing and of one frame by pass; without the program cache");
+        command.add_flag("--ledger", ledger_,
+                         "Print the GL calls of preparing and of one frame by pass; without the program cache");
         command.add_option("--html", html_, "Also write one self-contained HTML page")->type_name("FILE");
         command.footer(kExitCodes);
     }

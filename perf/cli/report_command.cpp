@@ -2,8 +2,8 @@
 #include <filesystem>
 #include <set>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "engine/error.h"
@@ -66,8 +66,8 @@ private:
         std::error_code error;
         std::filesystem::create_directories(folder_, error);
         if (error) {
-            throw Error(Fault::environment, fmt::format("cannot make the folder {} ({}); choose another with -o", folder_,
-                                                        error.message()));
+            throw Error(Fault::environment, fmt::format("cannot make the folder {} ({}); choose another with -o",
+                                                        folder_, error.message()));
         }
         perf::expect_can_write(page());
     }

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include "content/content.h"
 #include "engine/error.h"
@@ -37,7 +37,8 @@ Size parse_size(const std::string& text) {
     const std::string_view view = text;
     if (cross == std::string::npos || !number(view.substr(0, cross), size.width) ||
         !number(view.substr(cross + 1), size.height)) {
-        throw Error(Fault::usage, fmt::format("--size {}: write WIDTHxHEIGHT in pixels, each 1 to {}", text, kLargestSize));
+        throw Error(Fault::usage,
+                    fmt::format("--size {}: write WIDTHxHEIGHT in pixels, each 1 to {}", text, kLargestSize));
     }
     return size;
 }
@@ -82,10 +83,11 @@ std::optional<Arithmetic> parse_arithmetic(const std::string& text) {
 }
 
 std::optional<gl::PixelFormat> parse_storage(const std::string& text) {
-    const std::vector<std::pair<std::string, gl::PixelFormat>> formats{
-        {"rgba32f", gl::PixelFormat::rgba32f},       {"rgba16f", gl::PixelFormat::rgba16f},
-        {"r11g11b10f", gl::PixelFormat::r11g11b10f}, {"rgb10_a2", gl::PixelFormat::rgb10_a2},
-        {"rgba8", gl::PixelFormat::rgba8}};
+    const std::vector<std::pair<std::string, gl::PixelFormat>> formats{{"rgba32f", gl::PixelFormat::rgba32f},
+                                                                       {"rgba16f", gl::PixelFormat::rgba16f},
+                                                                       {"r11g11b10f", gl::PixelFormat::r11g11b10f},
+                                                                       {"rgb10_a2", gl::PixelFormat::rgb10_a2},
+                                                                       {"rgba8", gl::PixelFormat::rgba8}};
     std::vector<std::string> names{"auto"};
     for (const auto& [format_name, format] : formats) {
         if (format_name == text) {
@@ -119,8 +121,10 @@ const Camera& camera_named(const Scene& scene, const std::string& wished) {
         names.push_back(camera.name.empty() ? std::to_string(index) : camera.name);
     }
     if (names.empty()) {
-        throw Error(Fault::usage, fmt::format("--camera {}: this scene brings no camera; leave it out to frame the model, "
-                                              "or give --eye and --target", wished));
+        throw Error(Fault::usage,
+                    fmt::format("--camera {}: this scene brings no camera; leave it out to frame the model, "
+                                "or give --eye and --target",
+                                wished));
     }
     throw Error(Fault::usage, unknown("camera", wished, names));
 }
@@ -149,7 +153,9 @@ Camera choose_camera(Scene& scene, const SceneOptions& options, const Size& size
 }  // namespace
 
 void add_scene_options(CLI::App& command, SceneOptions& options) {
-    command.add_option("--size", options.size, "Width and height of the picture [pixels], each 1 to 8192 and within the device")
+    command
+        .add_option("--size", options.size,
+                    "Width and height of the picture [pixels], each 1 to 8192 and within the device")
         ->type_name("WxH")
         ->capture_default_str();
     command
@@ -165,16 +171,18 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
         ->type_name("NAME")
         ->capture_default_str();
     command
-        .add_option("--storage", options.storage,
-                    "Format of scene_color: rgba32f, rgba16f, r11g11b10f, rgb10_a2, rgba8, or auto: the highest that the "
-                    "tier and the device allow")
+        .add_option(
+            "--storage", options.storage,
+            "Format of scene_color: rgba32f, rgba16f, r11g11b10f, rgb10_a2, rgba8, or auto: the highest that the "
+            "tier and the device allow")
         ->type_name("FORMAT")
         ->capture_default_str();
     add_device_options(command, options.device);
-    CLI::Option* camera =
-        command.add_option("--camera", options.camera, "Camera of the scene by name, or by number from 0. Default: the first; "
-                                                       "a scene without one is framed whole")
-            ->type_name("NAME|N");
+    CLI::Option* camera = command
+                              .add_option("--camera", options.camera,
+                                          "Camera of the scene by name, or by number from 0. Default: the first; "
+                                          "a scene without one is framed whole")
+                              ->type_name("NAME|N");
     CLI::Option* eye = command.add_option("--eye", options.eye, "Where the view is from [m], +Y up; needs --target")
                            ->type_name("X,Y,Z")
                            ->excludes(camera);
@@ -186,10 +194,11 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
                     "Vertical field of view [degrees], above 0 and below 180. Default: the camera's, else 40")
         ->type_name("DEG");
     command
-        .add_option("--set", options.settings,
-                    "Change the scene; repeatable. exposure=N (above 0); ambient=R,G,B (linear light); sky.zenith=R,G,B, "
-                    "sky.horizon=R,G,B, sky.ground=R,G,B (display values 0 to 1); EFFECT.on=0|1 (in or out, whatever "
-                    "the scene calls for)")
+        .add_option(
+            "--set", options.settings,
+            "Change the scene; repeatable. exposure=N (above 0); ambient=R,G,B (linear light); sky.zenith=R,G,B, "
+            "sky.horizon=R,G,B, sky.ground=R,G,B (display values 0 to 1); EFFECT.on=0|1 (in or out, whatever "
+            "the scene calls for)")
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
 }
@@ -231,7 +240,8 @@ OpenedScene open_with_options(const std::string& scene, const SceneOptions& opti
     opened.label = is_file ? std::filesystem::path(scene).filename().string() : scene;
     opened.wishes = parse_wishes(options);
     if (content::add_studio_rig(opened.scene)) {
-        opened.scene.notices.push_back("the scene brings no lights, so the studio rig lights it: a sun, two points, ambient");
+        opened.scene.notices.push_back(
+            "the scene brings no lights, so the studio rig lights it: a sun, two points, ambient");
     }
     opened.view = view_of(choose_camera(opened.scene, options, size), size.width, size.height);
     for (const std::string& setting : options.settings) {
@@ -241,8 +251,7 @@ OpenedScene open_with_options(const std::string& scene, const SceneOptions& opti
 }
 
 std::string shell_quoted(const std::string& word) {
-    constexpr std::string_view kPlain =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-+=.,/:@%";
+    constexpr std::string_view kPlain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-+=.,/:@%";
     if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) {
         return word;
     }

@@ -16,8 +16,8 @@ constexpr float kPackedRange = 8.0f;
 
 void expect_no_gl_error(Renderer& renderer, const std::string& scene, const char* step) {
     if (const std::string error = renderer.first_gl_error(); !error.empty()) {
-        throw Error(Fault::check, fmt::format("GL reports {} after {} {}; run with --trace to see the calls", error, step,
-                                              scene));
+        throw Error(Fault::check,
+                    fmt::format("GL reports {} after {} {}; run with --trace to see the calls", error, step, scene));
     }
 }
 

@@ -31,7 +31,8 @@ struct DrawResult {
 };
 
 /// Plans, checks, prepares, draws, measures. The context behind `gl` is current; `gl` is restricted to `caps`.
-/// Error(check) when the plan breaks a rule or GL reports an error; other errors as plan_frame() and Renderer::prepare().
+/// Error(check) when the plan breaks a rule or GL reports an error; other errors as plan_frame() and
+/// Renderer::prepare().
 [[nodiscard]] DrawResult draw_scene(gl::EntryPoints& gl, const gl::Caps& caps, const Scene& scene, const View& view,
                                     const Wishes& wishes, const DrawRequest& request);
 

@@ -1,5 +1,5 @@
-// What mediump really is, by drawing. Each of two operations chained: drivers may run a single mediump operation between
-// 32-bit values in 32 bits. Verdicts come back as colours, so that ES 2.0 targets can carry them.
+// What mediump really is, by drawing. Each of two operations chained: drivers may run a single mediump operation
+// between 32-bit values in 32 bits. Verdicts come back as colours, so that ES 2.0 targets can carry them.
 #include "perf/measure/precision_probe.h"
 
 #include <array>
@@ -32,8 +32,9 @@ public:
         gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
         gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture_.name(), 0);
         if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
-            throw Error(Fault::context, "this context cannot draw to a 1x1 RGBA8 texture, which every ES 2.0 can; try "
-                                        "another --context");
+            throw Error(Fault::context,
+                        "this context cannot draw to a 1x1 RGBA8 texture, which every ES 2.0 can; try "
+                        "another --context");
         }
         corners_ = gl::create<gl::Kind::buffer>(gl);
         gl.BindBuffer(GL_ARRAY_BUFFER, corners_.name());
@@ -74,7 +75,7 @@ private:
 };
 
 ArithmeticProbe probe(gl::EntryPoints& gl, const gl::Caps& caps, gl::ProgramCache& programs, PixelTarget& target,
-                   gl::Arithmetic arithmetic) {
+                      gl::Arithmetic arithmetic) {
     gl::ProgramDescription description;
     description.name = "precision_probe";
     description.vertex = "probe/precision.vert";
@@ -101,7 +102,7 @@ ArithmeticProbe probe(gl::EntryPoints& gl, const gl::Caps& caps, gl::ProgramCach
     return seen;
 }
 
-std::string sentence_of(const PrecisionProbe& probe) {
+std::string sentence_of(const PrecisionProbe& probe, bool has_highp) {
     if (!probe.mediump.drawn || !probe.highp.drawn) {
         return "the probe was not drawn, so nothing is known of mediump here";
     }
@@ -113,7 +114,9 @@ std::string sentence_of(const PrecisionProbe& probe) {
             : probe.mediump.overflow == Overflow::clamps    ? ": it clamps above 65504"
                                                             : ", but its range is wider";
     text += probe.mediump.keeps_subnormals ? " and keeps subnormals" : " and flushes subnormals to 0";
-    if (probe.highp.is_half()) {
+    if (!has_highp) {
+        text += ", and fragments have nothing better";
+    } else if (probe.highp.is_half()) {
         text += "; highp is no better here";
     }
     return text;
@@ -128,7 +131,7 @@ PrecisionProbe probe_precision(gl::EntryPoints& gl, const gl::Caps& caps) {
     PrecisionProbe result;
     result.mediump = probe(gl, caps, programs, target, gl::Arithmetic::half);
     result.highp = caps.fragment_highp ? probe(gl, caps, programs, target, gl::Arithmetic::full) : result.mediump;
-    result.sentence = sentence_of(result);
+    result.sentence = sentence_of(result, caps.fragment_highp);
     return result;
 }
 

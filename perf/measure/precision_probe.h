@@ -12,10 +12,10 @@ enum class Overflow { none, to_infinity, clamps };
 
 /// What fragments of one arithmetic showed.
 struct ArithmeticProbe {
-    bool drawn = false;             ///< false: the control of the probe did not come back, nothing below means anything
+    bool drawn = false;  ///< false: the control of the probe did not come back, nothing below means anything
     Overflow overflow = Overflow::none;  ///< (300*300)*0.001: inf or 65.5 in half, 90 in single precision
-    bool loses_small_steps = false;  ///< ((1 + 2^-12) + 2^-12) - 1 is 0 in half, 2^-11 in single precision
-    bool keeps_subnormals = false;   ///< (2^-14 * 2^-5) * 2^10 is not 0; in single precision no subnormal is met
+    bool loses_small_steps = false;      ///< ((1 + 2^-12) + 2^-12) - 1 is 0 in half, 2^-11 in single precision
+    bool keeps_subnormals = false;       ///< (2^-14 * 2^-5) * 2^10 is not 0; in single precision no subnormal is met
     [[nodiscard]] bool is_half() const { return drawn && (overflow != Overflow::none || loses_small_steps); }
 };
 

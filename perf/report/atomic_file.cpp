@@ -33,8 +33,8 @@ public:
         : path_(path), partial_(path.string() + ".partial." + std::to_string(::getpid())) {
         struct stat there {};
         if (::stat(path.c_str(), &there) == 0 && !S_ISREG(there.st_mode)) {
-            throw Error(Fault::environment, "cannot write " + path.string() +
-                                                ": it exists and is no regular file; choose another name");
+            throw Error(Fault::environment,
+                        "cannot write " + path.string() + ": it exists and is no regular file; choose another name");
         }
         descriptor_ = ::open(partial_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
         if (descriptor_ < 0) {
@@ -97,8 +97,6 @@ void write_file(const std::filesystem::path& path, std::string_view text) {
     write_file(path, std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
 }
 
-void expect_can_write(const std::filesystem::path& path) {
-    const PartialFile probe(path);
-}
+void expect_can_write(const std::filesystem::path& path) { const PartialFile probe(path); }
 
 }  // namespace halfframe::perf

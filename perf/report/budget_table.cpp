@@ -60,7 +60,11 @@ std::vector<Row> rows_of(const FramePlan& plan, const Budget& budget) {
         if (found != rows.end()) {
             return *found;
         }
-        rows.push_back({.name = row_name, .budget = budget.find(row_name), .effects = {}, .passes = {}, .any_in = false,
+        rows.push_back({.name = row_name,
+                        .budget = budget.find(row_name),
+                        .effects = {},
+                        .passes = {},
+                        .any_in = false,
                         .why_out = {}});
         return rows.back();
     };
@@ -100,7 +104,8 @@ void judge(BudgetLine& line, const Row& row, const FrameReport& report) {
     } else if (!line.measured) {
         say(Verdict::not_measured, "not measured");
     } else {
-        const double allowed_ms = line.published_high_ms.value_or(line.published_ms.value_or(line.ours_ms.value_or(0.0)));
+        const double allowed_ms =
+            line.published_high_ms.value_or(line.published_ms.value_or(line.ours_ms.value_or(0.0)));
         const double over_ms = line.measured->median_ms - allowed_ms;
         if (over_ms > 0.0) {
             say(Verdict::over, fmt::format("over by {} ms", ms_text(over_ms)));
@@ -149,8 +154,11 @@ void add_lines(BudgetTable& table, const Row& row, const FrameReport& report) {
 }
 
 LimitLine limit_line(std::string line_name, double value, std::optional<double> limit, const char* unit, int digits) {
-    LimitLine line{.name = std::move(line_name), .value = fmt::format("{:.{}f}{}", value, digits, unit), .limit = "none",
-                   .verdict = Verdict::none, .verdict_text = "no limit"};
+    LimitLine line{.name = std::move(line_name),
+                   .value = fmt::format("{:.{}f}{}", value, digits, unit),
+                   .limit = "none",
+                   .verdict = Verdict::none,
+                   .verdict_text = "no limit"};
     if (limit) {
         line.limit = fmt::format("{:.{}f}{}", *limit, digits, unit);
         line.verdict = value > *limit ? Verdict::over : Verdict::within;
@@ -169,8 +177,11 @@ void add_limits(BudgetTable& table, const FrameReport& report, const Budget& bud
         }
         table.limits.push_back(std::move(frame));
     } else {
-        table.limits.push_back({.name = "frame", .value = "-", .limit = fmt::format("{:.2f} ms", budget.frame_ms),
-                                .verdict = Verdict::not_measured, .verdict_text = "not measured"});
+        table.limits.push_back({.name = "frame",
+                                .value = "-",
+                                .limit = fmt::format("{:.2f} ms", budget.frame_ms),
+                                .verdict = Verdict::not_measured,
+                                .verdict_text = "not measured"});
     }
     table.limits.push_back(
         limit_line("targets", static_cast<double>(report.plan.target_bytes()) / kMiB, budget.target_mib, " MiB", 2));
@@ -201,8 +212,8 @@ bool BudgetTable::exceeded() const {
 }
 
 bool BudgetTable::repeats_its_row(std::size_t index) const {
-    const bool is_only_pass = lines[index].is_pass && !lines[index - 1].is_pass &&
-                              (index + 1 == lines.size() || !lines[index + 1].is_pass);
+    const bool is_only_pass =
+        lines[index].is_pass && !lines[index - 1].is_pass && (index + 1 == lines.size() || !lines[index + 1].is_pass);
     return is_only_pass && lines[index].name == lines[index - 1].name;
 }
 

@@ -10,13 +10,13 @@
 namespace halfframe::perf {
 
 enum class Verdict {
-    none,            ///< nothing to say: a line that only informs
+    none,  ///< nothing to say: a line that only informs
     within,
     over,            ///< the only one that fails
     not_built,       ///< the budget has a row for an effect that does not exist
     not_called_for,  ///< the scene does not ask for the effect
     not_measured,
-    not_judged,      ///< a figure of another device than this one
+    not_judged,  ///< a figure of another device than this one
 };
 
 /// One line: a row of the budget, or (with `is_pass`) a pass that belongs to the row above it.

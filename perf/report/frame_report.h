@@ -41,23 +41,23 @@ struct CallReport {
 /// Times of this device; absent when nothing was measured.
 struct Measurement {
     TimingCalibration calibration;
-    std::vector<PassTimer::Summary> passes;   ///< one for each pass of the plan
+    std::vector<PassTimer::Summary> passes;    ///< one for each pass of the plan
     std::vector<std::vector<double>> samples;  ///< one value a frame for each pass [ms]
-    PassTimer::Summary frame;                 ///< wall clock of whole frames
+    PassTimer::Summary frame;                  ///< wall clock of whole frames
 };
 
 struct FrameReport {
-    std::string scene;              ///< as the user named it
-    std::string picture_file;       ///< where the picture went; empty: nowhere
-    std::string reproduce;          ///< the command that makes this again
-    std::string context;            ///< platform::Context::description()
+    std::string scene;         ///< as the user named it
+    std::string picture_file;  ///< where the picture went; empty: nowhere
+    std::string reproduce;     ///< the command that makes this again
+    std::string context;       ///< platform::Context::description()
     gl::Caps caps;
     FramePlan plan;
     Picture display;
     std::vector<std::string> notices;  ///< scene, plan and cache: each one sentence
     std::size_t texture_bytes = 0;
-    CallReport prepare_calls;          ///< from an empty renderer to a prepared plan
-    CallReport frame_calls;            ///< of one frame that was not timed
+    CallReport prepare_calls;  ///< from an empty renderer to a prepared plan
+    CallReport frame_calls;    ///< of one frame that was not timed
     gl::ProgramCache::Statistics programs;
     std::optional<Measurement> measurement;
     std::optional<std::vector<CensusRow>> census;

@@ -26,7 +26,7 @@ h1 { font-size: 1.5rem; margin: 0 0 .25rem; }
 h2 { font-size: 1.3rem; margin: 3rem 0 .5rem; padding-top: 1rem; border-top: 1px solid var(--line); }
 h3 { font-size: 1.05rem; margin: 1.75rem 0 .5rem; }
 p { margin: .35rem 0; max-width: 60rem; }
-.soft, caption, figcaption, small { color: var(--soft); }
+.soft, figcaption { color: var(--soft); }
 nav a { margin-right: 1rem; }
 a { color: var(--bar); }
 :focus-visible { outline: 3px solid var(--focus); outline-offset: 2px; }
@@ -34,7 +34,6 @@ figure { margin: 1rem 0; }
 img { display: block; max-width: 100%; height: auto; border: 1px solid var(--line); }
 .wide { overflow-x: auto; }
 table { border-collapse: collapse; width: 100%; font-size: .875rem; font-variant-numeric: tabular-nums; }
-caption { text-align: left; padding: .25rem 0; }
 th, td { text-align: left; padding: .25rem .6rem .25rem 0; border-bottom: 1px solid var(--line); vertical-align: top; }
 thead th { border-bottom: 2px solid var(--line); color: var(--soft); font-weight: 600; vertical-align: bottom; }
 tbody th { font-weight: 600; } tr.pass th { font-weight: 400; padding-left: 1.1rem; }
@@ -47,7 +46,8 @@ td.why { white-space: normal; }
 .bar .past { background: repeating-linear-gradient(135deg, var(--over) 0 6px, var(--bar) 6px 12px); }
 .over { color: var(--over); font-weight: 600; } .within { color: var(--good); }
 .out td, .out th { color: var(--soft); }
-pre { overflow-x: auto; padding: .6rem .8rem; background: var(--band); font: .85rem/1.45 ui-monospace, "DejaVu Sans Mono", monospace; }
+pre { overflow-x: auto; padding: .6rem .8rem; background: var(--band);
+  font: .85rem/1.45 ui-monospace, "DejaVu Sans Mono", monospace; }
 ol.sources { font-size: .875rem; padding-left: 1.4rem; } summary { cursor: pointer; }
 @media print { body { max-width: none; } }
 )css";
@@ -110,7 +110,10 @@ std::string budget_rows(const BudgetTable& table, std::vector<std::string>& sour
         const BudgetLine& line = table.lines[index];
         const bool out = line.verdict == Verdict::not_built || line.verdict == Verdict::not_called_for;
         const std::size_t number = source_number(sources, line);
-        rows += fmt::format("<tr class=\"{}\"><th scope=\"row\">{}", line.is_pass ? "pass" : out ? "out" : "row",
+        rows += fmt::format("<tr class=\"{}\"><th scope=\"row\">{}",
+                            line.is_pass ? "pass"
+                            : out        ? "out"
+                                         : "row",
                             html_escaped(line.name));
         if (number > 0) {
             rows += fmt::format(" <a href=\"#{0}-source-{1}\" aria-label=\"source {1}\">[{1}]</a>", id, number);
@@ -131,21 +134,22 @@ std::string budget_rows(const BudgetTable& table, std::vector<std::string>& sour
 
 std::string budget_section(const FrameReport& report, const BudgetTable& table, const std::string& id) {
     std::string html = "<h3>Milliseconds</h3>\n";
-    html += fmt::format("<p>{}</p>\n",
-                        report.measurement
-                            ? html_escaped(fmt::format("Measured here: median of {} frames after a first one, with the "
-                                                       "25th to 75th percentile; {}.",
-                                                       report.measurement->frame.frames,
-                                                       report.measurement->calibration.sentence))
-                            : "Nothing was measured.");
-    html += fmt::format("<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"milliseconds\"><table><caption>Budget {}, in milliseconds. Bars "
-                        "are shares of its frame, {} ms. Published figures are of the named console, ours are allowances "
-                        "on it, modelled ones do not exist yet; none is ever mixed with what was measured here.{}"
-                        "</caption>\n",
-                        html_escaped(table.budget), ms_text(table.frame_ms),
-                        report.caps.software
-                            ? " This is a software driver: its times are a CPU's, so no console's row is judged by them."
-                            : "");
+    html += fmt::format(
+        "<p>{}</p>\n",
+        report.measurement
+            ? html_escaped(fmt::format("Measured here: median of {} frames after a first one, with the "
+                                       "25th to 75th percentile; {}.",
+                                       report.measurement->frame.frames, report.measurement->calibration.sentence))
+            : "Nothing was measured.");
+    html += fmt::format(
+        "<p class=\"soft\">Budget {}, in milliseconds. Bars are shares of its frame, {} ms. Published "
+        "figures are of the named console, ours are allowances on it, modelled ones do not exist yet; "
+        "none is ever mixed with what was measured here.{}</p>\n",
+        html_escaped(table.budget), ms_text(table.frame_ms),
+        report.caps.software ? " This is a software driver: its times are a CPU's, so no console's row "
+                               "is judged by them."
+                             : "");
+    html += "<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"milliseconds\"><table>\n";
     html += fmt::format(
         "<thead><tr><th scope=\"col\" rowspan=\"2\">row, passes</th>"
         "<th scope=\"col\" rowspan=\"2\" class=\"number\">published</th>"
@@ -194,13 +198,14 @@ std::string effects_section(const FramePlan& plan) {
 std::string scene_section(const PageScene& scene, std::size_t index) {
     const FrameReport& report = *scene.report;
     const std::string id = anchor(report.scene, index);
-    std::string html = fmt::format("<section aria-labelledby=\"{0}\"><h2 id=\"{0}\">{1}</h2>\n", id,
-                                   html_escaped(report.scene));
+    std::string html =
+        fmt::format("<section aria-labelledby=\"{0}\"><h2 id=\"{0}\">{1}</h2>\n", id, html_escaped(report.scene));
     html += "<p>" + html_escaped(configuration_text(report.plan)) + "</p>\n";
-    html += fmt::format("<figure><img alt=\"{} rendered\" width=\"{}\" height=\"{}\" src=\"data:image/png;base64,{}\">"
-                        "<figcaption>{}</figcaption></figure>\n",
-                        html_escaped(report.scene), report.display.width, report.display.height,
-                        base64(png_bytes(report.display)), html_escaped(report.picture_file));
+    html += fmt::format(
+        "<figure><img alt=\"{} rendered\" width=\"{}\" height=\"{}\" src=\"data:image/png;base64,{}\">"
+        "<figcaption>{}</figcaption></figure>\n",
+        html_escaped(report.scene), report.display.width, report.display.height, base64(png_bytes(report.display)),
+        html_escaped(report.picture_file));
     html += budget_section(report, *scene.budget, id);
     html += effects_section(report.plan);
     html += "<h3>Plan</h3>\n<details><summary>Passes and targets of the frame</summary><pre tabindex=\"0\">" +
@@ -255,7 +260,8 @@ std::string base64(const std::vector<std::uint8_t>& bytes) {
 std::string html_page(const std::vector<PageScene>& scenes) {
     std::string html =
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>halfframe report</title>\n<style>";
+        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>halfframe "
+        "report</title>\n<style>";
     html += kStyle;
     html += "</style>\n</head>\n<body>\n<header><h1>halfframe report</h1>\n";
     if (!scenes.empty()) {

@@ -48,8 +48,8 @@ std::vector<std::uint8_t> png_bytes(const Picture& picture) {
         std::memcpy(&rgb[3 * pixel], &picture.rgba[4 * pixel], 3);
     }
     std::vector<std::uint8_t> bytes;
-    const int written = stbi_write_png_to_func(append, &bytes, picture.width, picture.height, 3, rgb.data(),
-                                               3 * picture.width);
+    const int written =
+        stbi_write_png_to_func(append, &bytes, picture.width, picture.height, 3, rgb.data(), 3 * picture.width);
     expect(written != 0 && !bytes.empty(), "stb_image_write could not encode a PNG");
     return bytes;
 }

@@ -102,7 +102,9 @@ private:
 };
 
 std::string limits_text(const BudgetTable& table) {
-    TextTable limits({{"limit of the frame", Align::left}, {"here", Align::right}, {"limit", Align::right},
+    TextTable limits({{"limit of the frame", Align::left},
+                      {"here", Align::right},
+                      {"limit", Align::right},
                       {"verdict", Align::left}});
     for (const LimitLine& line : table.limits) {
         limits.add_row({line.name, line.value, line.limit, line.verdict_text});
@@ -144,15 +146,16 @@ std::string plan_text(const FramePlan& plan) {
                          std::to_string(gl::bytes_per_pixel(target.format)), bytes_text(target.bytes())});
     }
     targets.add_rule();
-    targets.add_row({"together", "", "", fmt::format("{:.1f}", plan.bytes_per_pixel()), bytes_text(plan.target_bytes())});
+    targets.add_row(
+        {"together", "", "", fmt::format("{:.1f}", plan.bytes_per_pixel()), bytes_text(plan.target_bytes())});
     text += targets.text();
     text += fmt::format("limit of tier {}: {:.1f} B/pixel\n\n", halfframe::name(plan.tier),
                         bytes_per_pixel_limit(plan.tier));
 
     TextTable effects({{"effect"}, {""}, {"tier"}, {"why"}});
     for (const EffectDecision& effect : plan.effects) {
-        effects.add_row({effect.effect, effect.in ? "in" : "out", effect.in ? halfframe::name(effect.tier) : "-",
-                         effect.why});
+        effects.add_row(
+            {effect.effect, effect.in ? "in" : "out", effect.in ? halfframe::name(effect.tier) : "-", effect.why});
     }
     return text + effects.text();
 }
@@ -182,7 +185,8 @@ std::string budget_text(const BudgetTable& table, const FrameReport& report) {
                       line.share_of_frame ? fmt::format("{:.1f} %", 100.0 * *line.share_of_frame) : "-",
                       line.bytes > 0 ? bytes_text(line.bytes) : "-", line.verdict_text});
     }
-    std::string text = fmt::format("budget {} of {}: {}\n", table.budget, report.scene, configuration_text(report.plan));
+    std::string text =
+        fmt::format("budget {} of {}: {}\n", table.budget, report.scene, configuration_text(report.plan));
     text += "driver: " + driver_text(report.caps) + "\n";
     if (report.measurement) {
         text += fmt::format("here: median of {} frames after a first one; {}\n", report.measurement->frame.frames,
@@ -191,11 +195,15 @@ std::string budget_text(const BudgetTable& table, const FrameReport& report) {
         text += "here: nothing was measured\n";
     }
     text += "\n" + rows.text() + "\n" + limits_text(table) + "\n";
-    text += wrapped("All in milliseconds, and columns are never mixed: published is the source's figure on the console named "
-                    "there, ours an allowance on that console, ps3, x360 and es2 are modelled (not modelled yet), here is "
-                    "this device.", kLineWidth, 0) + "\n";
+    text +=
+        wrapped(
+            "All in milliseconds, and columns are never mixed: published is the source's figure on the console named "
+            "there, ours an allowance on that console, ps3, x360 and es2 are modelled (not modelled yet), here is "
+            "this device.",
+            kLineWidth, 0) +
+        "\n";
     if (report.caps.software) {
-        text += wrapped("This is a software driver: its times are a CPU's, so no console's row is judged by them.", kLineWidth, 0) + "\n";
+        text += "This is a software driver: its times are a CPU's, so no console's row is judged by them.\n";
     }
     return text + sources.text();
 }

@@ -13,8 +13,8 @@ namespace halfframe::perf {
 /// Passes with reads, writes and formats; targets with sizes; effects in and out with the sentence why.
 [[nodiscard]] std::string plan_text(const FramePlan& plan);
 
-/// Rows and passes with published, allowed, modelled and measured figures in columns of their own, then the limits, then
-/// the sources. `measurement` absent: the measured columns hold "-".
+/// Rows and passes with published, allowed, modelled and measured figures in columns of their own, then the limits,
+/// then the sources. `measurement` absent: the measured columns hold "-".
 [[nodiscard]] std::string budget_text(const BudgetTable& table, const FrameReport& report);
 
 /// Calls, draws and bytes of one steady frame by pass, the set-up above it, and the calls by name.

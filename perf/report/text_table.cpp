@@ -12,9 +12,8 @@
 namespace halfframe::perf {
 
 void TextTable::add_row(std::vector<std::string> cells) {
-    expect(cells.size() == columns_.size(), [&] {
-        return fmt::format("a table row has {} cells under {} columns", cells.size(), columns_.size());
-    });
+    expect(cells.size() == columns_.size(),
+           [&] { return fmt::format("a table row has {} cells under {} columns", cells.size(), columns_.size()); });
     rows_.push_back(std::move(cells));
 }
 
@@ -49,10 +48,10 @@ std::string TextTable::text() const {
         result += line + "\n";
     };
     add_line([&](std::size_t column) -> const std::string& { return columns_[column].title; });
-    result += std::string(total, '-') + "\n";
+    result.append(total, '-').append("\n");
     for (const auto& row : rows_) {
         if (row.empty()) {
-            result += std::string(total, '-') + "\n";
+            result.append(total, '-').append("\n");
         } else {
             add_line([&](std::size_t column) -> const std::string& { return row[column]; });
         }
@@ -89,7 +88,8 @@ std::string wrapped(const std::string& text, std::size_t width, std::size_t inde
     std::size_t column = 0;
     while (words >> word) {
         if (column > indent && column + 1 + word.size() > width) {
-            result += "\n" + std::string(indent, ' ');
+            result += '\n';
+            result.append(indent, ' ');
             column = indent;
         } else if (!result.empty()) {
             result += ' ';

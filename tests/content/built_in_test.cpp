@@ -146,7 +146,8 @@ TEST(StudioRig, LightsASceneWithoutLightsOnly) {
     EXPECT_FALSE(content::add_studio_rig(room));
     EXPECT_EQ(room.lights.size(), before);
     Scene furnace = content::open_scene("furnace");
-    EXPECT_FALSE(content::add_studio_rig(furnace)) << "a furnace is lit by its ambient, and must stay one";
+    EXPECT_FALSE(content::add_studio_rig(furnace)) << "its ambient is its light";
+    EXPECT_TRUE(furnace.lights.empty());
 
     for (const float size : {0.01f, 1.0f, 500.0f}) {
         Scene scene = content::open_scene("furnace");

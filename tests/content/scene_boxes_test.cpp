@@ -58,7 +58,8 @@ TEST_P(Framing, TheWholeBoxIsInsideThePicture) {
 INSTANTIATE_TEST_SUITE_P(Boxes, Framing,
                          ::testing::Values(Box{glm::vec3(-1), glm::vec3(1)}, Box{{0, 0, 0}, {100, 1, 2}},
                                            Box{{5, 5, 5}, {5, 9, 5}}, Box{{-1e-3f, 0, 0}, {1e-3f, 1e-3f, 2e-3f}},
-                                           Box{{-5000, 0, -5000}, {5000, 10, 5000}}));
+                                           Box{{-5000, 0, -5000}, {5000, 10, 5000}}),
+                         [](const auto& each) { return std::to_string(each.index); });
 
 TEST(Cameras, EmptyAndPointBoxesGiveFiniteCameras) {
     for (const Box& box : {Box{}, Box{glm::vec3(3), glm::vec3(3)}}) {

@@ -40,7 +40,7 @@ TEST_P(Contexts, GiveIdenticalPictures) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Tiers, Contexts, testing::Values(Tier::low, Tier::console, Tier::reference),
-                         [](const auto& info) { return std::string(name(info.param)); });
+                         [](const auto& tier) { return std::string(name(tier.param)); });
 
 }  // namespace
 }  // namespace halfframe::tests

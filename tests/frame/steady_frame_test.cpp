@@ -42,7 +42,7 @@ TEST(SteadyFrameCounter, SeesAnAllocation) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Tiers, SteadyFrame, testing::Values(Tier::low, Tier::console, Tier::reference),
-                         [](const auto& info) { return std::string(name(info.param)); });
+                         [](const auto& tier) { return std::string(name(tier.param)); });
 
 }  // namespace
 }  // namespace halfframe::tests

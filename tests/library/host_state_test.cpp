@@ -45,38 +45,45 @@ GLuint made(const Host& host, const char* generate) {
 
 const std::vector<Habit>& habits() {
     static const std::vector<Habit> list{
-        {"masks shut", [](const Host& host) {
+        {"masks shut",
+         [](const Host& host) {
              constexpr GLboolean kShut = GL_FALSE;
              HOST(ColorMask, kShut, kShut, kShut, kShut);
              HOST(DepthMask, kShut);
          }},
-        {"depth test that never passes", [](const Host& host) {
+        {"depth test that never passes",
+         [](const Host& host) {
              HOST(Enable, GL_DEPTH_TEST);
              HOST(DepthFunc, GL_NEVER);
          }},
         {"blending on", [](const Host& host) { HOST(Enable, GL_BLEND); }},
         {"culling on", [](const Host& host) { HOST(Enable, GL_CULL_FACE); }},
-        {"clear values", [](const Host& host) {
+        {"clear values",
+         [](const Host& host) {
              HOST(ClearColor, 1.0f, 0.0f, 1.0f, 1.0f);
              HOST(ClearDepthf, 0.0f);
          }},
-        {"own framebuffer and viewport", [](const Host& host) {
+        {"own framebuffer and viewport",
+         [](const Host& host) {
              HOST(BindFramebuffer, GL_FRAMEBUFFER, made(host, "glGenFramebuffers"));
              HOST(Viewport, 3, 3, 5, 5);
          }},
         {"no program", [](const Host& host) { HOST(UseProgram, 0u); }},
         {"another active texture unit", [](const Host& host) { HOST(ActiveTexture, GL_TEXTURE5); }},
-        {"own textures", [](const Host& host) {
+        {"own textures",
+         [](const Host& host) {
              for (GLenum unit = 0; unit < 8; ++unit) {
                  HOST(ActiveTexture, GL_TEXTURE0 + unit);
                  HOST(BindTexture, GL_TEXTURE_2D, made(host, "glGenTextures"));
              }
          }},
-        {"own buffers", [](const Host& host) {
+        {"own buffers",
+         [](const Host& host) {
              HOST(BindBuffer, GL_ARRAY_BUFFER, made(host, "glGenBuffers"));
              HOST(BindBuffer, GL_ELEMENT_ARRAY_BUFFER, made(host, "glGenBuffers"));
          }},
-        {"own vertex array", [](const Host& host) {
+        {"own vertex array",
+         [](const Host& host) {
              HOST(BindVertexArray, made(host, "glGenVertexArrays"));
              HOST(EnableVertexAttribArray, 7u);
          }},

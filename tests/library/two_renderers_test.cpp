@@ -51,7 +51,9 @@ Scene make_scene(int variant) {
     const float shift_m = variant == 0 ? -0.5f : 0.7f;
     scene.surfaces = {{.name = "pyramid", .mesh = 0, .material = 0}, {.name = "floor", .mesh = 1, .material = 1}};
     scene.surfaces[0].world_from_local[3] = {shift_m, 0, 0, 1};
-    scene.lights = {{.kind = LightKind::sun, .name = "sun", .color = {1, 0.9f, 0.8f},
+    scene.lights = {{.kind = LightKind::sun,
+                     .name = "sun",
+                     .color = {1, 0.9f, 0.8f},
                      .direction = glm::normalize(glm::vec3{-1, -2, -0.5f})}};
     if (variant != 0) scene.lights.push_back({.kind = LightKind::point, .name = "lamp", .position = {1, 2, 2}});
     scene.ambient = {0.05f, 0.05f, 0.05f};
@@ -67,9 +69,7 @@ View make_view(const Scene& scene) {
 /// One renderer with the scene it draws; the address of the scene stays.
 struct Drawing {
     Drawing(Ground& ground, int variant, const Wishes& wishes = {})
-        : scene(make_scene(variant)),
-          view(make_view(scene)),
-          renderer(ground.gl, ground.caps) {
+        : scene(make_scene(variant)), view(make_view(scene)), renderer(ground.gl, ground.caps) {
         renderer.prepare(scene, plan_frame(scene, view, wishes, ground.caps, all_effects()));
     }
     Picture draw() {
@@ -94,8 +94,10 @@ protected:
     void SetUp() override {
         if (const auto made = harness::make_ground(wish()); !made.ground) GTEST_SKIP() << made.reason;
         expected_ = {alone(wish(), 0), alone(wish(), 1)};
-        for (const Picture& picture : expected_) ASSERT_GT(harness::coverage(picture), 0.1) << "a blank picture proves nothing";
-        ASSERT_FALSE(harness::difference(expected_[0], expected_[1]).exact()) << "two scenes with one picture prove nothing";
+        for (const Picture& picture : expected_)
+            ASSERT_GT(harness::coverage(picture), 0.1) << "a blank picture proves nothing";
+        ASSERT_FALSE(harness::difference(expected_[0], expected_[1]).exact())
+            << "two scenes with one picture prove nothing";
     }
     [[nodiscard]] static GroundWish wish() { return {.backend = GetParam()}; }
     std::vector<Picture> expected_;

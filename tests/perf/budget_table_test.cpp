@@ -31,8 +31,13 @@ FrameReport sample_report(bool software) {
     decision.in = true;
     decision.why = "the sample calls for it";
     report.plan.effects.push_back(decision);
-    report.frame_calls.passes.push_back({.pass = "sample_pass", .calls = 9, .draws = 3, .vertices = 9, .bytes_uploaded = 0,
-                                         .bytes_read_back = 0, .by_name = {}});
+    report.frame_calls.passes.push_back({.pass = "sample_pass",
+                                         .calls = 9,
+                                         .draws = 3,
+                                         .vertices = 9,
+                                         .bytes_uploaded = 0,
+                                         .bytes_read_back = 0,
+                                         .by_name = {}});
     Measurement measurement;
     measurement.passes.push_back({.median_ms = 5.0, .low_ms = 4.0, .high_ms = 6.0, .frames = 3});
     measurement.samples.push_back({4.0, 5.0, 6.0});
@@ -63,8 +68,8 @@ Budget sample_budget() {
 }
 
 const BudgetLine& line_named(const BudgetTable& table, const std::string& name) {
-    const auto found = std::find_if(table.lines.begin(), table.lines.end(),
-                                    [&](const BudgetLine& line) { return line.name == name; });
+    const auto found =
+        std::find_if(table.lines.begin(), table.lines.end(), [&](const BudgetLine& line) { return line.name == name; });
     EXPECT_NE(found, table.lines.end()) << name;
     return *found;
 }

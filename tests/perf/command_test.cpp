@@ -106,9 +106,9 @@ TEST(Usage, version_and_lists_are_0) {
 /// Every line of an option has words of its own, on the line or under it.
 TEST(Usage, help_explains_every_option_and_the_exit_codes) {
     const std::vector<std::pair<std::string, std::vector<std::string>>> commands{
-        {"render", {"--output", "--size", "--tier", "--arithmetic", "--storage", "--context", "--device", "--camera", "--eye",
-                    "--target", "--fov-y", "--set", "--measure", "--budget", "--census", "--cache", "--json", "--trace",
-                    "--ledger", "--html"}},
+        {"render", {"--output", "--size",  "--tier",   "--arithmetic", "--storage", "--context", "--device",
+                    "--camera", "--eye",   "--target", "--fov-y",      "--set",     "--measure", "--budget",
+                    "--census", "--cache", "--json",   "--trace",      "--ledger",  "--html"}},
         {"report", {"--output", "--size", "--tier", "--measure", "--budget", "--json"}},
         {"plan", {"--size", "--tier", "--device", "--json"}},
         {"info", {"--context", "--device", "--json"}},
@@ -176,8 +176,8 @@ TEST_F(Drawing, a_full_disk_is_5_and_leaves_no_partial_file) {
     ChildOptions options;
     options.file_size_limit = 20000;  // above the tables, below the page
     options.environment = {{"MESA_SHADER_CACHE_DISABLE", "true"}};
-    const ChildResult result = halfframe({"render", "test_room", "--size", "320x240", "--measure", "0", "--cache", "none",
-                                          "-o", (folder / "picture.exr").string()},
+    const ChildResult result = halfframe({"render", "test_room", "--size", "320x240", "--measure", "0", "--cache",
+                                          "none", "-o", (folder / "picture.exr").string()},
                                          options);
     EXPECT_EQ(result.code, 5) << result.err;
     EXPECT_TRUE(contains(result.err, "picture.exr")) << result.err;
@@ -201,7 +201,8 @@ TEST_F(Drawing, json_alone_is_on_standard_output) {
     EXPECT_EQ(report.at("frame_calls").at("object_creations"), 0);
     EXPECT_EQ(report.at("frame_calls").at("program_links"), 0);
     EXPECT_TRUE(std::filesystem::exists(folder / "a.png"));
-    for (const auto& arguments : std::vector<std::vector<std::string>>{{"plan", "test_room", "--json"}, {"info", "--json"}}) {
+    for (const auto& arguments :
+         std::vector<std::vector<std::string>>{{"plan", "test_room", "--json"}, {"info", "--json"}}) {
         const ChildResult other = halfframe(arguments);
         ASSERT_EQ(other.code, 0) << other.err;
         EXPECT_TRUE(nlohmann::json::accept(other.out)) << other.out;
@@ -257,8 +258,8 @@ TEST_F(Drawing, a_budget_that_cannot_be_met_is_1) {
 
 TEST_F(Drawing, a_report_is_a_folder_with_one_page_that_stands_alone) {
     const TemporaryFolder folder;
-    const ChildResult result = halfframe({"report", "test_room", "furnace", "--size", "64x48", "--measure", "2", "--cache",
-                                          "none", "-o", (folder / "deep/out").string()});
+    const ChildResult result = halfframe({"report", "test_room", "furnace", "--size", "64x48", "--measure", "2",
+                                          "--cache", "none", "-o", (folder / "deep/out").string()});
     ASSERT_EQ(result.code, 0) << result.err;
     const std::string page = file_text(folder / "deep/out/index.html");
     EXPECT_TRUE(std::filesystem::exists(folder / "deep/out/test_room.png"));

@@ -41,10 +41,14 @@ TEST(Wrapping, breaks_at_blanks_and_indents) {
     EXPECT_EQ(wrapped("unbreakable", 4, 2), "unbreakable");
 }
 
-TEST(Html, escapes_what_would_be_markup) { EXPECT_EQ(html_escaped("<a href=\"x\">&"), "&lt;a href=&quot;x&quot;&gt;&amp;"); }
+TEST(Html, escapes_what_would_be_markup) {
+    EXPECT_EQ(html_escaped("<a href=\"x\">&"), "&lt;a href=&quot;x&quot;&gt;&amp;");
+}
 
 TEST(Html, base64_of_rfc_4648_section_10) {
-    const auto encoded = [](std::string_view text) { return base64(std::vector<std::uint8_t>(text.begin(), text.end())); };
+    const auto encoded = [](std::string_view text) {
+        return base64(std::vector<std::uint8_t>(text.begin(), text.end()));
+    };
     EXPECT_EQ(encoded(""), "");
     EXPECT_EQ(encoded("f"), "Zg==");
     EXPECT_EQ(encoded("fo"), "Zm8=");

@@ -37,7 +37,8 @@ protected:
 };
 
 INSTANTIATE_TEST_SUITE_P(Backends, ContextOf,
-                         testing::Values(Kind{Backend::egl, Api::es, "EglEs"}, Kind{Backend::egl, Api::desktop, "EglDesktop"},
+                         testing::Values(Kind{Backend::egl, Api::es, "EglEs"},
+                                         Kind{Backend::egl, Api::desktop, "EglDesktop"},
                                          Kind{Backend::osmesa, Api::es, "OsmesaEs"},
                                          Kind{Backend::osmesa, Api::desktop, "OsmesaDesktop"}),
                          [](const auto& kind) { return kind.param.name; });
@@ -133,8 +134,8 @@ TEST_P(ContextOf, comes_and_goes_many_times) {
 
 /// Every pair of kinds lives side by side and keeps its own pixels, whoever was current before.
 TEST_P(ContextOf, takes_turns_with_every_other) {
-    for (const Kind& other : {Kind{Backend::egl, Api::es, ""}, Kind{Backend::egl, Api::desktop, ""},
-                              Kind{Backend::osmesa, Api::es, ""}}) {
+    for (const Kind& other :
+         {Kind{Backend::egl, Api::es, ""}, Kind{Backend::egl, Api::desktop, ""}, Kind{Backend::osmesa, Api::es, ""}}) {
         Context a = create();
         const Probe probe_a(a);
         probe_a.clear(1, 0, 0);
@@ -200,12 +201,14 @@ TEST(EglContext, notices_that_it_was_lost) {
     const auto current = reinterpret_cast<decltype(&eglGetCurrentContext)>(dlsym(egl, "eglGetCurrentContext"))();
     context.make_current();  // all is well so far
     // Destroyed behind its back: EGL keeps it until it is released, which make_current() does.
-    ASSERT_EQ(reinterpret_cast<decltype(&eglDestroyContext)>(dlsym(egl, "eglDestroyContext"))(display, current), EGLBoolean{EGL_TRUE});
+    ASSERT_EQ(reinterpret_cast<decltype(&eglDestroyContext)>(dlsym(egl, "eglDestroyContext"))(display, current),
+              EGLBoolean{EGL_TRUE});
     try {
         context.make_current();
         FAIL() << "a destroyed context was made current";
     } catch (const ContextError& error) {
-        EXPECT_NE(std::string(error.what()).find("the context was lost (eglMakeCurrent: EGL_BAD_CONTEXT)"), std::string::npos)
+        EXPECT_NE(std::string(error.what()).find("the context was lost (eglMakeCurrent: EGL_BAD_CONTEXT)"),
+                  std::string::npos)
             << error.what();
     }
 }

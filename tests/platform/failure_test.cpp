@@ -50,7 +50,8 @@ protected:
 private:
     std::filesystem::path folder_ =
         std::filesystem::path(testing::TempDir()) /
-        (std::string("halfframe_") + testing::UnitTest::GetInstance()->current_test_info()->name() + std::to_string(getpid()));
+        (std::string("halfframe_") + testing::UnitTest::GetInstance()->current_test_info()->name() +
+         std::to_string(getpid()));
 };
 
 /// EGL's library is there, and finds no driver behind it.
@@ -111,9 +112,9 @@ TEST_F(Failure, automatic_goes_on_to_osmesa) {
 }
 
 TEST_F(Failure, automatic_without_any_says_each) {
-    const Outcome outcome = try_context(
-        without({"libEGL.so.1", "libEGL.so", "libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so", "libglfw.so.3", "libglfw.so"}),
-        "auto");
+    const Outcome outcome = try_context(without({"libEGL.so.1", "libEGL.so", "libOSMesa.so.8", "libOSMesa.so.6",
+                                                 "libOSMesa.so", "libglfw.so.3", "libglfw.so"}),
+                                        "auto");
     EXPECT_EQ(outcome.exit_code, 4);
     EXPECT_TRUE(outcome.says("no graphics context could be made:\n  EGL cannot start: ")) << outcome.text;
     EXPECT_TRUE(outcome.says("\n  OSMesa cannot start: ")) << outcome.text;

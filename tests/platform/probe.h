@@ -1,4 +1,5 @@
-// The few GL calls that prove a context draws: clear, draw a shader, count samples, read back. Made from its loader alone.
+// The few GL calls that prove a context draws: clear, draw a shader, count samples, read back. Made from its loader
+// alone.
 #pragma once
 
 #include <array>
@@ -34,7 +35,8 @@ public:
         call<decltype(&glFramebufferRenderbuffer)>("glFramebufferRenderbuffer")(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0,
                                                                                 GL_RENDERBUFFER, name);
         call<decltype(&glViewport)>("glViewport")(0, 0, kSize, kSize);
-        if (call<decltype(&glCheckFramebufferStatus)>("glCheckFramebufferStatus")(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
+        if (call<decltype(&glCheckFramebufferStatus)>("glCheckFramebufferStatus")(GL_FRAMEBUFFER) !=
+            GL_FRAMEBUFFER_COMPLETE) {
             throw std::runtime_error("the framebuffer is not complete");
         }
     }
@@ -128,10 +130,14 @@ private:
 };
 
 // Orange from both languages, in values that 8 bits hold exactly.
-inline constexpr const char* kVertex100 = "#version 100\nattribute vec2 position;\nvoid main() { gl_Position = vec4(position, 0.0, 1.0); }\n";
-inline constexpr const char* kFragment100 = "#version 100\nprecision mediump float;\nvoid main() { gl_FragColor = vec4(1.0, 0.6, 0.2, 1.0); }\n";
-inline constexpr const char* kVertex300 = "#version 300 es\nin vec2 position;\nvoid main() { gl_Position = vec4(position, 0.0, 1.0); }\n";
-inline constexpr const char* kFragment300 = "#version 300 es\nprecision highp float;\nout vec4 color;\nvoid main() { color = vec4(0.2, 0.6, 1.0, 1.0); }\n";
+inline constexpr const char* kVertex100 =
+    "#version 100\nattribute vec2 position;\nvoid main() { gl_Position = vec4(position, 0.0, 1.0); }\n";
+inline constexpr const char* kFragment100 =
+    "#version 100\nprecision mediump float;\nvoid main() { gl_FragColor = vec4(1.0, 0.6, 0.2, 1.0); }\n";
+inline constexpr const char* kVertex300 =
+    "#version 300 es\nin vec2 position;\nvoid main() { gl_Position = vec4(position, 0.0, 1.0); }\n";
+inline constexpr const char* kFragment300 =
+    "#version 300 es\nprecision highp float;\nout vec4 color;\nvoid main() { color = vec4(0.2, 0.6, 1.0, 1.0); }\n";
 inline constexpr Pixel kOrange{255, 153, 51, 255};
 inline constexpr Pixel kBlue{51, 153, 255, 255};
 

@@ -1,5 +1,5 @@
-// try_context BACKEND API: makes a context and says what came: "backend", the description, then a line for each back end
-// that was tried first. Without a context: the sentence, and exit code 4.
+// try_context BACKEND API: makes a context and says what came: the back end, the description, then a line for each back
+// end that was tried first. Without a context: the sentence, and exit code 4.
 #include <cstdio>
 #include <string_view>
 

@@ -54,9 +54,11 @@ TEST(GlfwContext, takes_turns_with_every_back_end) {
             second_probe.clear(0, 1, 0);
             for (int turn = 0; turn < 3; ++turn) {
                 window.make_current();
-                ASSERT_EQ(window_probe.read(5, 5), (Pixel{255, 0, 0, 255})) << second.description() << ", turn " << turn;
+                ASSERT_EQ(window_probe.read(5, 5), (Pixel{255, 0, 0, 255}))
+                    << second.description() << ", turn " << turn;
                 second.make_current();
-                ASSERT_EQ(second_probe.read(5, 5), (Pixel{0, 255, 0, 255})) << second.description() << ", turn " << turn;
+                ASSERT_EQ(second_probe.read(5, 5), (Pixel{0, 255, 0, 255}))
+                    << second.description() << ", turn " << turn;
             }
         }
         window.make_current();

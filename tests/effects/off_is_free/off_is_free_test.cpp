@@ -61,7 +61,7 @@ std::vector<std::string> effect_names() {
     return names;
 }
 
-INSTANTIATE_TEST_SUITE_P(Effects, OffIsFree, testing::ValuesIn(effect_names()), [](const auto& info) { return info.param; });
+INSTANTIATE_TEST_SUITE_P(Effects, OffIsFree, testing::ValuesIn(effect_names()), [](const auto& effect) { return effect.param; });
 
 }  // namespace
 }  // namespace halfframe::tests

@@ -1,0 +1,127 @@
+// Drives glslang and SPIRV-Tools. Nothing else in the project needs their headers.
+#include "perf/shader_ir/compile.h"
+
+#include <fmt/format.h>
+#include <glslang/Public/ResourceLimits.h>
+#include <glslang/Public/ShaderLang.h>
+#include <glslang/SPIRV/GlslangToSpv.h>
+
+#include <spirv-tools/libspirv.hpp>
+#include <spirv-tools/optimizer.hpp>
+
+#include "engine/error.h"
+
+namespace halfframe::shader_ir {
+namespace {
+
+constexpr spv_target_env kEnvironment = SPV_ENV_OPENGL_4_5;
+
+/// glslang keeps its symbol tables between programs as long as one of these lives.
+struct GlslangProcess {
+    GlslangProcess() { glslang::InitializeProcess(); }
+    ~GlslangProcess() { glslang::FinalizeProcess(); }
+    GlslangProcess(const GlslangProcess&) = delete;
+    GlslangProcess& operator=(const GlslangProcess&) = delete;
+};
+
+/// glslang's report without the lines that say nothing, with our files and lines.
+[[noreturn]] void refuse(const std::string& log, const gl::StageText& text) {
+    throw Error(Fault::check, "a shader does not compile to SPIR-V: " + gl::translate_log(log, text));
+}
+
+std::vector<std::uint32_t> spirv_of(const gl::StageText& text, gl::Stage stage) {
+    static const GlslangProcess kProcess;
+    const EShLanguage language = stage == gl::Stage::vertex ? EShLangVertex : EShLangFragment;
+    glslang::TShader shader(language);
+    const char* source = text.text.c_str();
+    shader.setStrings(&source, 1);
+    // glslang makes no SPIR-V from 3.00; 3.10 has all of it and only adds.
+    shader.setOverrideVersion(310);
+    shader.setEnvInput(glslang::EShSourceGlsl, language, glslang::EShClientOpenGL, 100);
+    shader.setEnvClient(glslang::EShClientOpenGL, glslang::EShTargetOpenGL_450);
+    shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_0);
+    shader.setAutoMapBindings(true);
+    shader.setAutoMapLocations(true);
+    const auto messages = static_cast<EShMessages>(EShMsgSpvRules);
+    if (!shader.parse(GetDefaultResources(), 310, EEsProfile, false, false, messages)) {
+        refuse(shader.getInfoLog(), text);
+    }
+    glslang::TProgram program;
+    program.addShader(&shader);
+    if (!program.link(messages) || !program.mapIO()) refuse(program.getInfoLog(), text);
+
+    glslang::TIntermediate* tree = program.getIntermediate(language);
+    tree->setSourceFile("stage");  // without a name no lines are written
+    glslang::SpvOptions options;
+    options.generateDebugInfo = true;
+    options.disableOptimizer = true;
+    spv::SpvBuildLogger logger;
+    std::vector<std::uint32_t> words;
+    glslang::GlslangToSpv(*tree, words, &logger, &options);
+    const std::string complaints = logger.getAllMessages();
+    expect(complaints.find("error") == std::string::npos, [&] { return "glslang made bad SPIR-V: " + complaints; });
+    return words;
+}
+
+/// Collects what SPIRV-Tools says.
+spvtools::MessageConsumer into(std::string& story) {
+    return [&story](spv_message_level_t level, const char*, const spv_position_t&, const char* message) {
+        if (level <= SPV_MSG_ERROR) story += std::string(message) + ' ';
+    };
+}
+
+void inline_all(std::vector<std::uint32_t>& words) {
+    std::string story;
+    spvtools::Optimizer optimizer(kEnvironment);
+    optimizer.SetMessageConsumer(into(story));
+    optimizer.RegisterPass(spvtools::CreateInlineExhaustivePass())
+        .RegisterPass(spvtools::CreateEliminateDeadFunctionsPass())
+        .RegisterPass(spvtools::CreateScalarReplacementPass())
+        .RegisterPass(spvtools::CreateLocalAccessChainConvertPass())
+        .RegisterPass(spvtools::CreateSSARewritePass())
+        .RegisterPass(spvtools::CreateAggressiveDCEPass());
+    std::vector<std::uint32_t> cleaned;
+    expect(optimizer.Run(words.data(), words.size(), &cleaned), [&] { return "SPIRV-Tools gave up: " + story; });
+    words = std::move(cleaned);
+}
+
+}  // namespace
+
+Module compile(const gl::StageText& text, gl::Stage stage, Cleaning cleaning) {
+    std::vector<std::uint32_t> words = spirv_of(text, stage);
+    if (cleaning == Cleaning::inlined) inline_all(words);
+    std::string story;
+    spvtools::SpirvTools tools(kEnvironment);
+    tools.SetMessageConsumer(into(story));
+    expect(tools.Validate(words), [&] { return "SPIR-V that is not valid: " + story; });
+    return parse(std::move(words), text.files);
+}
+
+Module compile(const gl::ProgramDescription& description, gl::Stage stage, Cleaning cleaning,
+               std::span<const gl::ShaderFile> files) {
+    gl::ProgramDescription twin = description;
+    twin.dialect = gl::Dialect::es300;
+    Module module = compile(gl::assemble_stage(twin, stage, files), stage, cleaning);
+    module.up_converted = description.dialect == gl::Dialect::es100;
+    return module;
+}
+
+Module compile(const FunctionFiles& wanted, std::span<const gl::ShaderFile> files) {
+    constexpr const char* kMainPath = "<functions>";
+    constexpr const char* kMorePath = "<more text>";
+    std::string text;
+    for (const std::string& path : wanted.paths) text += fmt::format("#include \"{}\"\n", path);
+    text += fmt::format("#include \"{}\"\nvoid main() {{ fragment_color = vec4(0.0); }}\n", kMorePath);
+    std::vector<gl::ShaderFile> all(files.begin(), files.end());
+    all.push_back({kMainPath, text});
+    all.push_back({kMorePath, wanted.more_text});
+    gl::ProgramDescription description;
+    description.name = "functions";
+    description.vertex = kMainPath;
+    description.fragment = kMainPath;
+    description.arithmetic = wanted.arithmetic;
+    description.defines = wanted.defines;
+    return compile(gl::assemble_stage(description, gl::Stage::fragment, all), gl::Stage::fragment);
+}
+
+}  // namespace halfframe::shader_ir

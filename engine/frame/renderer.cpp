@@ -29,6 +29,36 @@ const char* error_name(std::uint32_t error) {
     }
 }
 
+/// Everything a pass relies on and never sets: a host that draws between our frames may have left it otherwise. State of
+/// ES 3.0 is touched only where the device has it; under an ES 2.0 mask the host has no business with it either.
+void set_known_state(gl::EntryPoints& gl, const gl::Caps& caps) {
+    for (const GLenum capability : {GL_SCISSOR_TEST, GL_STENCIL_TEST, GL_POLYGON_OFFSET_FILL, GL_SAMPLE_ALPHA_TO_COVERAGE,
+                                    GL_SAMPLE_COVERAGE}) {
+        gl.Disable(capability);
+    }
+    gl.CullFace(GL_BACK);
+    gl.FrontFace(GL_CCW);
+    gl.BlendEquation(GL_FUNC_ADD);
+    gl.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    gl.DepthRangef(0.0f, 1.0f);
+    if (caps.es_version < 30) return;
+    gl.Disable(GL_RASTERIZER_DISCARD);
+    for (GLuint unit = 0; unit < kTextureUnits; ++unit) gl.BindSampler(unit, 0);
+}
+
+/// How pixels travel between us and GL, both ways.
+void set_known_transfer_state(gl::EntryPoints& gl, const gl::Caps& caps) {
+    gl.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    gl.PixelStorei(GL_PACK_ALIGNMENT, 4);
+    if (caps.es_version < 30) return;
+    gl.BindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+    gl.BindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+    for (const GLenum parameter : {GL_PACK_ROW_LENGTH, GL_PACK_SKIP_PIXELS, GL_PACK_SKIP_ROWS, GL_UNPACK_ROW_LENGTH,
+                                   GL_UNPACK_SKIP_PIXELS, GL_UNPACK_SKIP_ROWS}) {
+        gl.PixelStorei(parameter, 0);
+    }
+}
+
 void set_capability(gl::EntryPoints& gl, std::uint32_t capability, bool on) { on ? gl.Enable(capability) : gl.Disable(capability); }
 
 }  // namespace
@@ -125,11 +155,7 @@ void Renderer::prepare(const Scene& scene, const FramePlan& plan) {
     scene_ = &scene;
     plan_ = plan;
     while (gl_.GetError() != GL_NO_ERROR) {}  // what came before is not ours
-    gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
-    gl_.PixelStorei(GL_PACK_ALIGNMENT, 4);
-    gl_.CullFace(GL_BACK);
-    gl_.FrontFace(GL_CCW);
-    gl_.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    set_known_transfer_state(gl_, caps_);
     if (caps_.core_profile) {
         targets_->loose_array = gl::create<gl::Kind::vertex_array>(gl_);
         gl_.BindVertexArray(targets_->loose_array.name());
@@ -223,6 +249,7 @@ void Renderer::draw_passes(const View& view, PassTimer* timer) {
     expect(scene_ != nullptr, "draw() before prepare()");
     expect(view.width == plan_.width && view.height == plan_.height, "the view's size is not the plan's");
     *state_ = {};  // the host may have used the context since the last frame
+    set_known_state(gl_, caps_);
     if (timer) timer->begin_frame();
     for (std::size_t i = 0; i < plan_.passes.size(); ++i) {
         const Pass& pass = plan_.passes[i];
@@ -288,6 +315,7 @@ Picture Renderer::read_display() {
     }
     const std::size_t row = static_cast<std::size_t>(plan_.width) * 4;
     std::vector<std::uint8_t> bottom_up(row * static_cast<std::size_t>(plan_.height));
+    set_known_transfer_state(gl_, caps_);
     gl_.BindFramebuffer(GL_FRAMEBUFFER, targets_->framebuffer_of_color(plan_.display));
     gl_.ReadPixels(0, 0, plan_.width, plan_.height, GL_RGBA, GL_UNSIGNED_BYTE, bottom_up.data());
     picture.rgba.resize(bottom_up.size());
@@ -305,6 +333,7 @@ FloatPicture Renderer::read_target(int target_index) {
     const std::size_t row = static_cast<std::size_t>(target.width) * 4;
     const std::size_t count = row * static_cast<std::size_t>(target.height);
     std::vector<float> bottom_up(count);
+    set_known_transfer_state(gl_, caps_);
     gl_.BindFramebuffer(GL_FRAMEBUFFER, targets_->framebuffer_of_color(target_index));
     const bool normalised = target.format == gl::PixelFormat::rgba8 || target.format == gl::PixelFormat::rgb10_a2;
     if (target.format == gl::PixelFormat::rgba8) {

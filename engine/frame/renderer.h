@@ -48,7 +48,8 @@ public:
     /// `scene` must outlive the renderer or the next prepare().
     void prepare(const Scene& scene, const FramePlan& plan);
 
-    /// Draws one frame of the prepared plan. No heap allocation, no GL object, no program link.
+    /// Draws one frame of the prepared plan. No heap allocation, no GL object, no program link. Whatever state a host left
+    /// behind does not show; our own bindings (framebuffer, program, textures, viewport) are left behind in turn.
     /// Throws Error(context) when the context was lost.
     void draw(const View& view);
 

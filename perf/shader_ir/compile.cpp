@@ -42,7 +42,8 @@ std::vector<std::uint32_t> spirv_of(const gl::StageText& text, gl::Stage stage) 
     shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_0);
     shader.setAutoMapBindings(true);
     shader.setAutoMapLocations(true);
-    const auto messages = static_cast<EShMessages>(EShMsgSpvRules);
+    // Functions that main does not call are evaluated too.
+    const auto messages = static_cast<EShMessages>(EShMsgSpvRules | EShMsgKeepUncalled);
     if (!shader.parse(GetDefaultResources(), 310, EEsProfile, false, false, messages)) {
         refuse(shader.getInfoLog(), text);
     }

@@ -88,6 +88,7 @@ private:
     bool run_standard_integer(const Instruction& one);
     bool run_standard_vector(const Instruction& one);
     bool run_standard_packing(const Instruction& one);
+    void split(const Instruction& one);
     // sampling.cpp
     bool run_sampling(const Instruction& one);
     void sample(const Instruction& one);

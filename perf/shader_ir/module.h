@@ -85,6 +85,7 @@ struct Module {
     bool up_converted = false;         ///< the description asked for ES 1.00; this is its ES 3.00 twin
 
     Id bound = 0;  ///< every id is below
+    std::uint32_t instruction_count = 0;
     std::map<Id, Type> types;
     std::map<Id, Constant> constants;
     std::vector<Variable> variables;

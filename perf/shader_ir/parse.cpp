@@ -64,6 +64,7 @@ public:
                              .operands = {begin + 1, begin + length}});
             at += length;
         }
+        module_.instruction_count = ordinal;
         std::stable_sort(module_.variables.begin(), module_.variables.end(),
                          [](const Variable& one, const Variable& other) { return one.name < other.name; });
     }
@@ -297,9 +298,11 @@ std::string Module::text_of(const Instruction& instruction) const {
     std::string all;
     const spvtools::SpirvTools tools(SPV_ENV_OPENGL_4_5);
     if (!tools.Disassemble(words, &all, SPV_BINARY_TO_TEXT_OPTION_NO_HEADER)) return "an instruction";
+    // Counted from the end: only the source text near the beginning takes more than one line.
     std::istringstream lines(all);
-    std::string line;
-    for (std::uint32_t i = 0; i <= instruction.ordinal; ++i) std::getline(lines, line);
+    std::vector<std::string> list;
+    for (std::string line; std::getline(lines, line);) list.push_back(line);
+    const std::string& line = list.at(list.size() - (instruction_count - instruction.ordinal));
     return line.substr(std::min(line.find_first_not_of(' '), line.size()));
 }
 

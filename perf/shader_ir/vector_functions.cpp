@@ -93,29 +93,6 @@ Values inverse(const Rounded& to, const Values& matrix, std::size_t n) {
     return result;
 }
 
-/// Whole part or exponent behind the fraction, component by component: the structure that ModfStruct and FrexpStruct give.
-Values split(std::uint32_t function, const Values& x) {
-    Values result = x;
-    for (const double value : x) {
-        if (function == GLSLstd450ModfStruct) {
-            result.push_back(std::trunc(value));
-        } else {
-            int exponent = 0;
-            std::frexp(value, &exponent);
-            result.push_back(std::isfinite(value) ? exponent : 0);
-        }
-    }
-    for (std::size_t i = 0; i < x.size(); ++i) {
-        int exponent = 0;
-        if (function == GLSLstd450FrexpStruct) {
-            result[i] = std::frexp(x[i], &exponent);
-        } else {
-            result[i] = std::isinf(x[i]) ? std::copysign(0.0, x[i]) : std::copysign(x[i] - result[x.size() + i], x[i]);
-        }
-    }
-    return result;
-}
-
 /// A normalised number of `bits` bits, as GLSL ES 3.00, 8.4 writes it.
 std::uint32_t normalised(double x, std::uint32_t bits, bool is_signed) {
     const double most = is_signed ? std::ldexp(1.0, static_cast<int>(bits) - 1) - 1.0
@@ -160,9 +137,11 @@ Packing packing_of(std::uint32_t function) {
 bool Machine::run_standard_vector(const Instruction& one) {
     const std::span<const Id> args = std::span(one.operands).subspan(2);
     const std::uint32_t function = one.operands[1];
-    const bool is_split = function == GLSLstd450ModfStruct || function == GLSLstd450FrexpStruct;
-    // A structure is not decorated, so what splits a number keeps its 32 bits, as the function itself is exact.
-    const Rounded to{is_split ? format(false) : format(one)};
+    const Rounded to{format(one)};
+    if (function == GLSLstd450Modf) {
+        split(one);
+        return true;
+    }
     for (const Lane lane : active_) {
         std::vector<Values> v;
         for (const Id id : args) v.push_back(lane_of(id, lane, to.model));
@@ -180,13 +159,25 @@ bool Machine::run_standard_vector(const Instruction& one) {
             case GLSLstd450Refract: result = refract(to, v[0], v[1], v[2][0]); break;
             case GLSLstd450Determinant: result = {determinant(to, v[0], type_of(args[0]).count)}; break;
             case GLSLstd450MatrixInverse: result = inverse(to, v[0], type_of(args[0]).count); break;
-            case GLSLstd450ModfStruct:
-            case GLSLstd450FrexpStruct: result = split(function, v[0]); break;
             default: return false;
         }
         for (std::size_t s = 0; s < result.size(); ++s) out(one, s)[lane] = result[s];
     }
     return true;
+}
+
+/// modf: exact, so nothing rounds but what is read.
+void Machine::split(const Instruction& one) {
+    const Id argument = one.operands[2];
+    const Register& pointer = registers_[one.operands[3]];
+    for (std::size_t s = 0; s < scalars_of(argument); ++s) {
+        for (const Lane lane : active_) {
+            const double x = rounded(is_narrow(format(one)) ? format(one) : Model::in_double, in(argument, s)[lane]);
+            const double whole = std::trunc(x);
+            pointer.storage->data[(pointer.offset[lane] + s) * width_ + lane] = whole;
+            out(one, s)[lane] = std::copysign(std::isinf(x) ? 0.0 : x - whole, x);
+        }
+    }
 }
 
 bool Machine::run_standard_packing(const Instruction& one) {

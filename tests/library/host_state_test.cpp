@@ -58,6 +58,48 @@ const std::vector<Habit>& habits() {
          }},
         {"blending on", [](const Host& host) { HOST(Enable, GL_BLEND); }},
         {"culling on", [](const Host& host) { HOST(Enable, GL_CULL_FACE); }},
+        {"scissor and stencil tests",
+         [](const Host& host) {
+             HOST(Enable, GL_SCISSOR_TEST);
+             HOST(Scissor, 2, 2, 3, 3);
+             HOST(Enable, GL_STENCIL_TEST);
+             HOST(StencilFunc, GL_NEVER, 1, 0xffu);
+         }},
+        {"front faces turned round and culled",
+         [](const Host& host) {
+             HOST(FrontFace, GL_CW);
+             HOST(CullFace, GL_FRONT);
+         }},
+        {"another way to blend",
+         [](const Host& host) {
+             HOST(BlendFunc, GL_ONE, GL_ONE);
+             HOST(BlendEquation, GL_FUNC_REVERSE_SUBTRACT);
+         }},
+        {"another depth range", [](const Host& host) { HOST(DepthRangef, 0.9f, 0.1f); }},
+        {"polygon offset",
+         [](const Host& host) {
+             HOST(Enable, GL_POLYGON_OFFSET_FILL);
+             HOST(PolygonOffset, -100.0f, -100000.0f);
+         }},
+        {"rasterizer discard", [](const Host& host) { HOST(Enable, GL_RASTERIZER_DISCARD); }},
+        {"own samplers",
+         [](const Host& host) {
+             for (GLuint unit = 0; unit < 8; ++unit) {
+                 const GLuint sampler = made(host, "glGenSamplers");
+                 HOST(BindSampler, unit, sampler);
+                 HOST(SamplerParameteri, sampler, GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_NEAREST);
+             }
+         }},
+        {"pixel rows with gaps",
+         [](const Host& host) {
+             HOST(PixelStorei, GL_PACK_SKIP_PIXELS, 1);
+             HOST(PixelStorei, GL_PACK_ROW_LENGTH, 200);
+             HOST(PixelStorei, GL_PACK_ALIGNMENT, 8);
+         }},
+        {"own pixel buffer",
+         [](const Host& host) {
+             HOST(BindBuffer, GL_PIXEL_PACK_BUFFER, made(host, "glGenBuffers"));
+         }},
         {"clear values",
          [](const Host& host) {
              HOST(ClearColor, 1.0f, 0.0f, 1.0f, 1.0f);

@@ -15,6 +15,8 @@ namespace {
 constexpr float kHalfWidth = 3.0f;
 constexpr float kHeight = 3.0f;
 constexpr float kHalfDepth = 2.0f;
+// Walls, floor and ceiling are grids of this size [m]: the low tier lights them by vertex, and its lamps need vertices.
+constexpr float kWallCell = 0.25f;
 // The opening in the wall at +X [m]: z from -0.8 to 0.8, y from 0.9 to 2.3.
 constexpr float kOpeningHalfWidth = 0.8f;
 constexpr float kOpeningBottom = 0.9f;
@@ -61,8 +63,8 @@ void add_floor_and_ceiling(Scene& scene, int plaster) {
     floor.normal_texture.image = add_image(scene, std::move(tiles.normal));
     floor.metallic_roughness_texture.image = add_image(scene, std::move(tiles.metallic_roughness));
     const glm::vec2 size_m(2.0f * kHalfWidth, 2.0f * kHalfDepth);
-    const int tiled = add_mesh(scene, quad(size_m, size_m), "floor");  // a tile is half a metre
-    const int ceiling = add_mesh(scene, quad(size_m), "ceiling");
+    const int tiled = add_mesh(scene, quad(size_m, size_m, kWallCell), "floor");  // a tile is half a metre
+    const int ceiling = add_mesh(scene, quad(size_m, glm::vec2(1.0f), kWallCell), "ceiling");
     add_surface(scene, "floor", tiled, add_material(scene, floor), lying_at(glm::vec3(0.0f), 1.0f));
     add_surface(scene, "ceiling", ceiling, plaster, lying_at({0.0f, kHeight, 0.0f}, -1.0f));
 }
@@ -81,7 +83,7 @@ void add_opening_wall(Scene& scene, int plaster) {
                                Piece{{2.0f * kHalfDepth, kHeight - kOpeningTop}, 0.5f * (kHeight + kOpeningTop), 0.0f},
                                Piece{{side, between}, middle, -kOpeningHalfWidth - 0.5f * side},
                                Piece{{side, between}, middle, kOpeningHalfWidth + 0.5f * side}}) {
-        const int mesh = add_mesh(scene, quad(piece.size_m), "opening wall");
+        const int mesh = add_mesh(scene, quad(piece.size_m, glm::vec2(1.0f), kWallCell), "opening wall");
         add_surface(scene, "opening wall", mesh, plaster, at({kHalfWidth, piece.y, piece.z}, -glm::half_pi<float>()));
     }
     Material glass = paint("glass", glm::vec3(0.35f, 0.45f, 0.60f), 0.08f);
@@ -94,8 +96,8 @@ void add_opening_wall(Scene& scene, int plaster) {
 }
 
 void add_walls(Scene& scene, int plaster) {
-    const int long_wall = add_mesh(scene, quad({2.0f * kHalfWidth, kHeight}), "long wall");
-    const int short_wall = add_mesh(scene, quad({2.0f * kHalfDepth, kHeight}), "short wall");
+    const int long_wall = add_mesh(scene, quad({2.0f * kHalfWidth, kHeight}, glm::vec2(1.0f), kWallCell), "long wall");
+    const int short_wall = add_mesh(scene, quad({2.0f * kHalfDepth, kHeight}, glm::vec2(1.0f), kWallCell), "short wall");
     const float y = 0.5f * kHeight;
     add_surface(scene, "back wall", long_wall, plaster, at({0.0f, y, -kHalfDepth}));
     add_surface(scene, "front wall", long_wall, plaster, at({0.0f, y, kHalfDepth}, glm::pi<float>()));

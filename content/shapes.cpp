@@ -1,6 +1,7 @@
 // Quad, box, sphere, cylinder.
 #include "content/shapes.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -80,10 +81,20 @@ void add_cap(Mesh& mesh, float radius_m, float y, float facing, int slices) {
 
 }  // namespace
 
-Mesh quad(const glm::vec2& size_m, const glm::vec2& uv_repeats) {
+Mesh quad(const glm::vec2& size_m, const glm::vec2& uv_repeats, float cell_m) {
     Mesh mesh;
     mesh.name = "quad";
-    add_rectangle(mesh, glm::vec3(0.0f), {0.5f * size_m.x, 0.0f, 0.0f}, {0.0f, 0.5f * size_m.y, 0.0f}, uv_repeats);
+    const int columns = std::max(1, static_cast<int>(std::ceil(size_m.x / cell_m)));
+    const int rows = std::max(1, static_cast<int>(std::ceil(size_m.y / cell_m)));
+    for (int row = 0; row <= rows; ++row) {
+        for (int column = 0; column <= columns; ++column) {
+            const glm::vec2 share{static_cast<float>(column) / static_cast<float>(columns),
+                                  static_cast<float>(row) / static_cast<float>(rows)};
+            const glm::vec3 position{(share.x - 0.5f) * size_m.x, (0.5f - share.y) * size_m.y, 0.0f};
+            add(mesh, {position, {0.0f, 0.0f, 1.0f}, {1.0f, 0.0f, 0.0f}, share * uv_repeats});
+        }
+    }
+    add_grid(mesh, 0, columns, rows);
     return mesh;
 }
 

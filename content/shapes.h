@@ -6,8 +6,8 @@
 namespace halfframe::content {
 
 /// In the XY plane around the origin, facing +Z. uv run from (0, 0) at the upper left to `uv_repeats` at the lower
-/// right.
-[[nodiscard]] Mesh quad(const glm::vec2& size_m, const glm::vec2& uv_repeats = glm::vec2(1.0f));
+/// right. A grid of cells at most `cell_m` wide and high (default: one cell), so that light by vertex has vertices.
+[[nodiscard]] Mesh quad(const glm::vec2& size_m, const glm::vec2& uv_repeats = glm::vec2(1.0f), float cell_m = 1e9f);
 
 /// Around the origin, flat sides; every side has uv 0..1.
 [[nodiscard]] Mesh box(const glm::vec3& size_m);

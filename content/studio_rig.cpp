@@ -31,7 +31,7 @@ bool add_studio_rig(Scene& scene) {
     Light sun;
     sun.kind = LightKind::sun;
     sun.name = "studio sun";
-    sun.color = glm::vec3(0.85f, 0.82f, 0.78f);
+    sun.color = glm::vec3(0.50f, 0.48f, 0.455f);
     sun.direction = glm::normalize(glm::vec3(-0.45f, -0.75f, -0.50f));
     scene.lights.push_back(sun);
 
@@ -39,10 +39,10 @@ bool add_studio_rig(Scene& scene) {
     const glm::vec3 left = glm::normalize(glm::vec3(-0.85f, 0.25f, 0.45f));
     const glm::vec3 behind = glm::normalize(glm::vec3(0.55f, 0.45f, -0.70f));
     scene.lights.push_back(
-        point_at("studio fill", centre + left * away_m, glm::vec3(0.22f, 0.27f, 0.36f), away_m, 4.0f * away_m));
+        point_at("studio fill", centre + left * away_m, glm::vec3(0.12f, 0.15f, 0.20f), away_m, 4.0f * away_m));
     scene.lights.push_back(
-        point_at("studio rim", centre + behind * away_m, glm::vec3(0.34f, 0.26f, 0.36f), away_m, 4.0f * away_m));
-    scene.ambient = glm::vec3(0.10f, 0.11f, 0.13f);
+        point_at("studio rim", centre + behind * away_m, glm::vec3(0.20f, 0.15f, 0.21f), away_m, 4.0f * away_m));
+    scene.ambient = glm::vec3(0.045f, 0.05f, 0.06f);
     return true;
 }
 

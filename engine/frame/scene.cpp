@@ -107,6 +107,28 @@ Box world_box(const Scene& scene) {
     return box;
 }
 
+Camera tightened(const Camera& camera, const Box& scene_box) {
+    if (scene_box.empty()) return camera;
+    const glm::vec3 eye(camera.world_from_view[3]);
+    const glm::vec3 forward = -glm::normalize(glm::vec3(camera.world_from_view[2]));
+    float nearest = 1e30f;
+    float farthest = -1e30f;
+    for (const glm::vec3& corner : corners(scene_box)) {
+        const float depth = glm::dot(corner - eye, forward);
+        nearest = std::min(nearest, depth);
+        farthest = std::max(farthest, depth);
+    }
+    Camera tight = camera;
+    // A hundredth of air, so that what lies on the box is not cut by rounding.
+    const float air = 0.01f * (farthest - nearest) + 1e-6f * std::abs(farthest);
+    const float near_m = std::max(camera.near_m, nearest - air);
+    const float far_m = std::min(camera.far_m, farthest + air);
+    if (near_m >= far_m) return camera;  // the scene is behind the eye or past the far plane: nothing to separate
+    tight.near_m = near_m;
+    tight.far_m = far_m;
+    return tight;
+}
+
 View view_of(const Camera& camera, int width, int height) {
     expect(width > 0 && height > 0, "a view needs a width and a height of at least one pixel");
     const float aspect = static_cast<float>(width) / static_cast<float>(height);

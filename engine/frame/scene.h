@@ -118,7 +118,7 @@ struct Scene {
     std::vector<Camera> cameras;
     glm::vec3 ambient{0.0f};                  ///< constant radiance from everywhere, linear
     std::optional<Sky> sky;                   ///< none: the background is `background`
-    glm::vec3 background{0.03f, 0.03f, 0.035f};  ///< display value behind everything
+    glm::vec3 background{0.12f, 0.13f, 0.15f};  ///< display value behind everything
     std::vector<std::string> notices;         ///< what the loader left out, one sentence each
 };
 
@@ -151,6 +151,9 @@ struct View {
 };
 
 [[nodiscard]] View view_of(const Camera& camera, int width, int height);
+/// `camera` with near and far moved towards each other until they just hold `scene_box`, never apart: the same picture
+/// from a depth buffer that separates more. An empty box leaves them alone.
+[[nodiscard]] Camera tightened(const Camera& camera, const Box& scene_box);
 /// A camera three quarters from above that has the whole of `box` inside the picture.
 [[nodiscard]] Camera camera_framing(const Box& box, float aspect, float fov_y_rad = 0.6981317f);
 /// eye to target [m], +Y up (or +Z when looking straight up or down).

@@ -243,7 +243,8 @@ OpenedScene open_with_options(const std::string& scene, const SceneOptions& opti
         opened.scene.notices.push_back(
             "the scene brings no lights, so the studio rig lights it: a sun, two points, ambient");
     }
-    opened.view = view_of(choose_camera(opened.scene, options, size), size.width, size.height);
+    const Camera camera = tightened(choose_camera(opened.scene, options, size), world_box(opened.scene));
+    opened.view = view_of(camera, size.width, size.height);
     for (const std::string& setting : options.settings) {
         apply(parse_setting(setting), opened.scene, opened.view, opened.wishes);
     }

@@ -49,6 +49,7 @@ Machine::Machine(const Module& module, Model model, const Bindings& bindings, st
     }
     for (const Variable& variable : module.variables) {
         variables_[variable.id] = make_storage(variable.type, variable.name);
+        types_[variable.id] = variable.pointer_type;
         point(variable.id, variables_[variable.id]);
         registers_[variable.id].relaxed =
             variable.storage == spv::StorageClassPrivate && module.relaxed[variable.id];

@@ -72,7 +72,8 @@ struct Constant {
 /// A variable outside all functions.
 struct Variable {
     Id id = 0;
-    Id type = 0;  ///< what it holds
+    Id type = 0;          ///< what it holds
+    Id pointer_type = 0;  ///< of the id itself
     spv::StorageClass storage = spv::StorageClassMax;
     std::string name;  ///< as in the text; of a built-in: "gl_FragCoord" and the like
     Id initializer = 0;

@@ -217,6 +217,7 @@ private:
         const Type& pointer = module_.type(one.type);
         Variable variable{.id = one.result,
                           .type = pointer.element,
+                          .pointer_type = one.type,
                           .storage = pointer.storage,
                           .name = name(one.result),
                           .initializer = one.operands.size() > 1 ? one.operands[1] : 0};

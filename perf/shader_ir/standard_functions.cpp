@@ -107,9 +107,7 @@ bool Machine::run_standard_scalar(const Instruction& one) {
         case GLSLstd450FClamp:
             return ternary([](double x, double low, double high) { return std::fmin(std::fmax(x, low), high); });
         case GLSLstd450FMix:
-            return ternary([&](double x, double y, double a) {
-                return to.product(x, to.difference(1.0, a)) + to.product(y, a);
-            });
+            return ternary([&](double x, double y, double a) { return x + to.product(a, to.difference(y, x)); });
         case GLSLstd450Step: return binary([](double edge, double x) { return x >= edge ? 1.0 : 0.0; });
         case GLSLstd450SmoothStep:
             return ternary([&](double low, double high, double x) {

@@ -66,6 +66,9 @@ void main() {
     vec3 n = normalize((normal_from_local * vec4(normal.xyz, 0.0)).xyz);
     vertex_normal = n;
 #if defined(LOCAL_LIGHTS) && defined(TIER_LOW)
+#ifdef DOUBLE_SIDED
+    n = dot(n, vertex_to_eye) < 0.0 ? -n : n;  // a vertex has no front: it is lit on the side that is seen
+#endif
     vertex_light = local_light(at, n);
 #endif
 #endif

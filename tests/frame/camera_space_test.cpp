@@ -46,6 +46,32 @@ TEST(CameraSpace, ScreenFractionHasKnownValues) {
     EXPECT_DOUBLE_EQ(screen_fraction(unit, clip_from_local(view, aside)), 0.125) << "half of it is off the screen";
 }
 
+TEST(CameraSpace, ATightenedCameraHoldsTheSceneAndNoMore) {
+    Camera camera;
+    camera.world_from_view[3] = {0.0f, 0.0f, 10.0f, 1.0f};
+    camera.near_m = 0.001f;
+    camera.far_m = 100000.0f;
+    const Box box{.low = glm::vec3(-1.0f), .high = glm::vec3(1.0f)};
+    const Camera tight = tightened(camera, box);
+    EXPECT_LE(tight.near_m, 9.0f);
+    EXPECT_GT(tight.near_m, 8.9f);
+    EXPECT_GE(tight.far_m, 11.0f);
+    EXPECT_LT(tight.far_m, 11.1f);
+
+    camera.near_m = 9.5f;  // planes that cut the scene on purpose stay where they are
+    camera.far_m = 10.5f;
+    EXPECT_EQ(tightened(camera, box).near_m, 9.5f);
+    EXPECT_EQ(tightened(camera, box).far_m, 10.5f);
+    EXPECT_EQ(tightened(camera, Box{}).far_m, 10.5f);
+
+    camera.near_m = 0.1f;
+    camera.far_m = 50.0f;
+    camera.world_from_view[3] = {0.0f, 0.0f, 0.0f, 1.0f};  // inside: the near plane stays, so that nothing is cut
+    EXPECT_EQ(tightened(camera, box).near_m, 0.1f);
+    camera.world_from_view[3] = {0.0f, 0.0f, -10.0f, 1.0f};  // the scene is behind the eye
+    EXPECT_EQ(tightened(camera, box).far_m, 50.0f);
+}
+
 TEST(CameraSpace, ASingularMatrixHasAnUprightNormal) {
     glm::mat4 flat(1.0f);
     flat[1] = glm::vec4(0.0f);

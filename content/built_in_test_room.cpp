@@ -17,6 +17,8 @@ constexpr float kHeight = 3.0f;
 constexpr float kHalfDepth = 2.0f;
 // Walls, floor and ceiling are grids of this size [m]: the low tier lights them by vertex, and its lamps need vertices.
 constexpr float kWallCell = 0.25f;
+// Walls reach this far behind each other [m]: their grids do not match, and a shared edge would leak single pixels.
+constexpr float kOverlap = 0.05f;
 // The opening in the wall at +X [m]: z from -0.8 to 0.8, y from 0.9 to 2.3.
 constexpr float kOpeningHalfWidth = 0.8f;
 constexpr float kOpeningBottom = 0.9f;
@@ -62,30 +64,34 @@ void add_floor_and_ceiling(Scene& scene, int plaster) {
     floor.base_color_texture.image = add_image(scene, std::move(tiles.base_color));
     floor.normal_texture.image = add_image(scene, std::move(tiles.normal));
     floor.metallic_roughness_texture.image = add_image(scene, std::move(tiles.metallic_roughness));
-    const glm::vec2 size_m(2.0f * kHalfWidth, 2.0f * kHalfDepth);
+    const glm::vec2 size_m(2.0f * (kHalfWidth + kOverlap), 2.0f * (kHalfDepth + kOverlap));
     const int tiled = add_mesh(scene, quad(size_m, size_m, kWallCell), "floor");  // a tile is half a metre
     const int ceiling = add_mesh(scene, quad(size_m, glm::vec2(1.0f), kWallCell), "ceiling");
     add_surface(scene, "floor", tiled, add_material(scene, floor), lying_at(glm::vec3(0.0f), 1.0f));
     add_surface(scene, "ceiling", ceiling, plaster, lying_at({0.0f, kHeight, 0.0f}, -1.0f));
 }
 
-/// The wall at +X as four pieces around its opening.
+/// The wall at +X: a fine grid without the cells of its opening, whose edges lie on the grid.
+Mesh wall_with_opening() {
+    Mesh wall = quad({2.0f * kHalfDepth, kHeight}, glm::vec2(1.0f), 0.1f);
+    std::vector<std::uint32_t> kept;
+    for (std::size_t i = 0; i + 2 < wall.indices.size(); i += 3) {
+        glm::vec3 centre(0.0f);
+        for (std::size_t corner = 0; corner < 3; ++corner) centre += wall.positions[wall.indices[i + corner]] / 3.0f;
+        const float y = centre.y + 0.5f * kHeight;
+        if (std::abs(centre.x) < kOpeningHalfWidth && y > kOpeningBottom && y < kOpeningTop) continue;
+        kept.insert(kept.end(), wall.indices.begin() + static_cast<std::ptrdiff_t>(i),
+                    wall.indices.begin() + static_cast<std::ptrdiff_t>(i + 3));
+    }
+    wall.indices = std::move(kept);
+    return wall;
+}
+
 void add_opening_wall(Scene& scene, int plaster) {
-    struct Piece {
-        glm::vec2 size_m;
-        float y;
-        float z;
-    };
-    const float side = kHalfDepth - kOpeningHalfWidth;
     const float between = kOpeningTop - kOpeningBottom;
     const float middle = 0.5f * (kOpeningTop + kOpeningBottom);
-    for (const Piece& piece : {Piece{{2.0f * kHalfDepth, kOpeningBottom}, 0.5f * kOpeningBottom, 0.0f},
-                               Piece{{2.0f * kHalfDepth, kHeight - kOpeningTop}, 0.5f * (kHeight + kOpeningTop), 0.0f},
-                               Piece{{side, between}, middle, -kOpeningHalfWidth - 0.5f * side},
-                               Piece{{side, between}, middle, kOpeningHalfWidth + 0.5f * side}}) {
-        const int mesh = add_mesh(scene, quad(piece.size_m, glm::vec2(1.0f), kWallCell), "opening wall");
-        add_surface(scene, "opening wall", mesh, plaster, at({kHalfWidth, piece.y, piece.z}, -glm::half_pi<float>()));
-    }
+    add_surface(scene, "opening wall", add_mesh(scene, wall_with_opening(), "opening wall"), plaster,
+                at({kHalfWidth, 0.5f * kHeight, 0.0f}, -glm::half_pi<float>()));
     Material glass = paint("glass", glm::vec3(0.35f, 0.45f, 0.60f), 0.08f);
     glass.base_color.a = 0.25f;
     glass.alpha_mode = AlphaMode::blend;
@@ -96,8 +102,8 @@ void add_opening_wall(Scene& scene, int plaster) {
 }
 
 void add_walls(Scene& scene, int plaster) {
-    const int long_wall = add_mesh(scene, quad({2.0f * kHalfWidth, kHeight}, glm::vec2(1.0f), kWallCell), "long wall");
-    const int short_wall = add_mesh(scene, quad({2.0f * kHalfDepth, kHeight}, glm::vec2(1.0f), kWallCell), "short wall");
+    const int long_wall = add_mesh(scene, quad({2.0f * (kHalfWidth + kOverlap), kHeight}, glm::vec2(1.0f), kWallCell), "long wall");
+    const int short_wall = add_mesh(scene, quad({2.0f * (kHalfDepth + kOverlap), kHeight}, glm::vec2(1.0f), kWallCell), "short wall");
     const float y = 0.5f * kHeight;
     add_surface(scene, "back wall", long_wall, plaster, at({0.0f, y, -kHalfDepth}));
     add_surface(scene, "front wall", long_wall, plaster, at({0.0f, y, kHalfDepth}, glm::pi<float>()));
@@ -178,7 +184,7 @@ void add_cameras(Scene& scene) {
     Camera corner = camera_looking({2.6f, 2.3f, 1.7f}, {-0.8f, 0.7f, -0.7f}, 1.0f, box);
     corner.name = "corner";
     for (Camera* camera : {&door, &corner}) {
-        camera->near_m = 0.05f;  // nearest thing to a camera is the wall behind it
+        camera->near_m = 0.25f;  // nothing in view is nearer; 16-bit depth then separates 2 mm at the far wall
         scene.cameras.push_back(*camera);
     }
 }

@@ -70,13 +70,9 @@ bool Machine::run_float(const Instruction& one) {
         case spv::OpFSub: each_float<2>(one, words, [](double a, double b) { return a - b; }); return true;
         case spv::OpFMul:
         case spv::OpVectorTimesScalar:
-        case spv::OpMatrixTimesScalar:
-            each_float<2>(one, words, [](double a, double b) { return a * b; });
-            return true;
+        case spv::OpMatrixTimesScalar: each_float<2>(one, words, [](double a, double b) { return a * b; }); return true;
         case spv::OpFDiv: each_float<2>(one, words, [](double a, double b) { return a / b; }); return true;
-        case spv::OpFRem:
-            each_float<2>(one, words, [](double a, double b) { return std::fmod(a, b); });
-            return true;
+        case spv::OpFRem: each_float<2>(one, words, [](double a, double b) { return std::fmod(a, b); }); return true;
         case spv::OpFMod:
             each_float<2>(one, words, [&](double a, double b) {
                 return a - arithmetic.product(b, std::floor(arithmetic.quotient(a, b)));
@@ -132,12 +128,8 @@ bool Machine::run_comparison(const Instruction& one) {
         case spv::OpFOrdGreaterThanEqual:
             each_compared<2>(one, words, [](double a, double b) { return truth(a >= b); });
             return true;
-        case spv::OpIsNan:
-            each_compared<1>(one, words, [](double a) { return truth(std::isnan(a)); });
-            return true;
-        case spv::OpIsInf:
-            each_compared<1>(one, words, [](double a) { return truth(std::isinf(a)); });
-            return true;
+        case spv::OpIsNan: each_compared<1>(one, words, [](double a) { return truth(std::isnan(a)); }); return true;
+        case spv::OpIsInf: each_compared<1>(one, words, [](double a) { return truth(std::isinf(a)); }); return true;
         default: return false;
     }
 }
@@ -189,9 +181,7 @@ bool Machine::run_logic(const Instruction& one) {
             return true;
         // Registers hold the value of an integer, not its bits: signed and unsigned compare alike.
         case spv::OpSLessThan:
-        case spv::OpULessThan:
-            each_exact<2>(one, words, [](double a, double b) { return truth(a < b); });
-            return true;
+        case spv::OpULessThan: each_exact<2>(one, words, [](double a, double b) { return truth(a < b); }); return true;
         case spv::OpSLessThanEqual:
         case spv::OpULessThanEqual:
             each_exact<2>(one, words, [](double a, double b) { return truth(a <= b); });
@@ -241,8 +231,7 @@ bool Machine::run_conversion(const Instruction& one) {
             const Type& type = module_.type(one.type);
             const bool is_signed = (type.element != 0 ? module_.type(type.element) : type).is_signed;
             each_exact<1>(one, words, [&](double a) {
-                const auto bits =
-                    from_float ? std::bit_cast<std::uint32_t>(static_cast<float>(a)) : bits_of(a);
+                const auto bits = from_float ? std::bit_cast<std::uint32_t>(static_cast<float>(a)) : bits_of(a);
                 return to_float ? static_cast<double>(std::bit_cast<float>(bits)) : from_bits(bits, is_signed);
             });
             return true;

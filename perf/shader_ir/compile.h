@@ -11,17 +11,17 @@
 namespace halfframe::shader_ir {
 
 enum class Cleaning {
-    none,   ///< as glslang writes it: every variable, every function, every temporary
+    none,     ///< as glslang writes it: every variable, every function, every temporary
     inlined,  ///< one function, variables turned into values, dead code gone. Names of functions are lost, save main.
 };
 
-/// Compiles one stage. The text must be ES 3.00 (`#version 300 es`): glslang reads it as 3.10, the first version that it
-/// turns into SPIR-V, which is a superset. Names, lines and precisions are kept.
-/// Error(check) naming our file and line for text that does not compile.
+/// Compiles one stage. The text must be ES 3.00 (`#version 300 es`): glslang reads it as 3.10, the first version that
+/// it turns into SPIR-V, which is a superset. Names, lines and precisions are kept. Error(check) naming our file and
+/// line for text that does not compile.
 [[nodiscard]] Module compile(const gl::StageText& text, gl::Stage stage, Cleaning cleaning = Cleaning::none);
 
-/// Assembles and compiles a stage of a program. Always in the ES 3.00 dialect: a description in ES 1.00 gives its ES 3.00
-/// twin and a Module that says `up_converted`.
+/// Assembles and compiles a stage of a program. Always in the ES 3.00 dialect: a description in ES 1.00 gives its
+/// ES 3.00 twin and a Module that says `up_converted`.
 [[nodiscard]] Module compile(const gl::ProgramDescription& description, gl::Stage stage,
                              Cleaning cleaning = Cleaning::none,
                              std::span<const gl::ShaderFile> files = gl::shader_files());

@@ -13,7 +13,8 @@ namespace {
 
 using Kind = Type::Kind;
 
-/// Lanes at once: enough to hide the cost of looking at an instruction, few enough for the registers to stay in the cache.
+/// Lanes at once: enough to hide the cost of looking at an instruction, few enough for the registers to stay in the
+/// cache.
 constexpr std::size_t kWidth = 256;
 
 void count(const Columns& columns, const std::string& whose, std::size_t& lanes) {
@@ -35,8 +36,8 @@ std::size_t lanes_of(std::span<const Columns> inputs, const Bindings& bindings) 
 }
 
 /// Appends `lanes` lanes of `data` to the columns from `first` on.
-void append(Columns& columns, const std::vector<double>& data, std::size_t first, std::size_t scalars, std::size_t width,
-            std::size_t lanes) {
+void append(Columns& columns, const std::vector<double>& data, std::size_t first, std::size_t scalars,
+            std::size_t width, std::size_t lanes) {
     columns.resize(scalars);
     for (std::size_t s = 0; s < scalars; ++s) {
         const auto begin = data.begin() + static_cast<std::ptrdiff_t>((first + s) * width);
@@ -79,7 +80,7 @@ private:
             const double place = machine_.sampler_at(module_.names.at(parameter.id));
             std::fill(argument.data.begin(), argument.data.end(), place);
         } else if (!columns.empty()) {
-            machine_.fill(argument.data, argument.type, columns, first, relaxed);
+            machine_.fill(argument, columns, first, relaxed);
         }
         if (module_.type(parameter.type).kind != Kind::pointer) machine_.at(parameter.id).data = argument.data;
     }
@@ -88,7 +89,8 @@ private:
         const std::size_t returned = module_.type(function_.return_type).scalars;
         if (returned > 0) append(result_.returned, machine_.at(function_.id).data, 0, returned, kWidth, lanes);
         for (std::size_t i = 0; i < arguments_.size(); ++i) {
-            append(result_.parameters[i], arguments_[i].data, 0, module_.type(arguments_[i].type).scalars, kWidth, lanes);
+            append(result_.parameters[i], arguments_[i].data, 0, module_.type(arguments_[i].type).scalars, kWidth,
+                   lanes);
         }
         for (const Variable& variable : module_.variables) {
             if (variable.storage != spv::StorageClassOutput) continue;

@@ -16,8 +16,8 @@
 
 namespace halfframe::shader_ir {
 
-/// One array per scalar of a value, in the order of Type: the inputs of all lanes. An array of one number is the same for
-/// every lane; all others have the same length. Booleans are 0 and 1.
+/// One array per scalar of a value, in the order of Type: the inputs of all lanes. An array of one number is the same
+/// for every lane; all others have the same length. Booleans are 0 and 1.
 using Columns = std::vector<std::vector<double>>;
 
 /// What a shader asks of a texture, for one lane.
@@ -41,20 +41,22 @@ struct Sampler {
 /// precision: a mediump one is rounded where a mediump operation uses it.
 struct Bindings {
     std::map<std::string, Columns, std::less<>> variables;  ///< uniforms and inputs
-    std::map<std::string, Sampler, std::less<>> samplers;   ///< also by the name of a sampler parameter
+    /// Also by the name of a sampler parameter. Of an array: "images" for all elements, "images[2]" for one.
+    std::map<std::string, Sampler, std::less<>> samplers;
 };
 
 struct Evaluation {
-    Columns returned;                  ///< empty for void; NaN or 0 in lanes that were discarded
-    std::vector<Columns> parameters;   ///< after the call; changed for out and inout
+    Columns returned;                                     ///< empty for void; NaN or 0 in lanes that were discarded
+    std::vector<Columns> parameters;                      ///< after the call; changed for out and inout
     std::map<std::string, Columns, std::less<>> outputs;  ///< every output variable; NaN where nothing was written
-    std::vector<bool> discarded;       ///< per lane
+    std::vector<bool> discarded;                          ///< per lane
 };
 
 /// Runs `function` (see Module::function) once per lane. `inputs` has an entry per parameter; leave that of an out or a
 /// sampler parameter empty. The number of lanes is the length of the longest array.
 /// Error(check) with our file and line: an instruction that cannot be evaluated on its own (dFdx), a variable that is
-/// read and was not given, an index outside its array, a loop without end. Mistake: inputs that do not fit the function.
+/// read and was not given, an index outside its array, a loop without end. Mistake: inputs that do not fit the
+/// function.
 [[nodiscard]] Evaluation evaluate(const Module& module, std::string_view function, std::span<const Columns> inputs,
                                   Model model, const Bindings& bindings = {});
 

@@ -51,8 +51,8 @@ Machine::Machine(const Module& module, Model model, const Bindings& bindings, st
         variables_[variable.id] = make_storage(variable.type, variable.name);
         types_[variable.id] = variable.pointer_type;
         point(variable.id, variables_[variable.id]);
-        registers_[variable.id].relaxed =
-            variable.storage == spv::StorageClassPrivate && module.relaxed[variable.id];
+        registers_[variable.id].relaxed = module.relaxed[variable.id];
+        variables_[variable.id].keeps_32_bits = variable.storage != spv::StorageClassPrivate;
     }
     for (const Function& function : module.functions) {
         if (module.type(function.return_type).scalars > 0) {
@@ -102,18 +102,28 @@ double Machine::sampler_at(std::string_view name) const {
     return found != sampler_names_.end() ? static_cast<double>(found - sampler_names_.begin()) : -1.0;
 }
 
-void Machine::fill(std::vector<double>& target, Id type_id, const Columns& columns, std::size_t first,
-                   bool relaxed) const {
-    const Type& type = module_.type(type_id);
+/// All elements of an array of samplers have the array's function, or each its own: "image[2]".
+void Machine::attach_sampler(Storage& storage) const {
+    const std::size_t elements = module_.type(storage.type).scalars;
+    for (std::size_t s = 0; s < elements; ++s) {
+        const double own = sampler_at(fmt::format("{}[{}]", storage.name, s));
+        std::fill_n(storage.data.begin() + static_cast<std::ptrdiff_t>(s * width_), width_,
+                    own >= 0.0 ? own : sampler_at(storage.name));
+    }
+}
+
+void Machine::fill(Storage& target, const Columns& columns, std::size_t first, bool relaxed) const {
+    const Type& type = module_.type(target.type);
     expect(columns.size() == type.scalars, [&] {
-        return fmt::format("{} columns given for a value of {} scalars", columns.size(), type.scalars);
+        return fmt::format("{} columns given for {}, which has {} scalars", columns.size(), target.name, type.scalars);
     });
     for (std::size_t s = 0; s < type.scalars; ++s) {
-        const Model to = type.float_leaf[s] ? format(relaxed || type.relaxed_leaf[s]) : Model::in_double;
+        const bool narrow = !target.keeps_32_bits && (relaxed || type.relaxed_leaf[s]);
+        const Model to = type.float_leaf[s] ? format(narrow) : Model::in_double;
         const std::vector<double>& column = columns[s];
         const std::size_t lanes = column.size() == 1 ? width_ : std::min(width_, column.size() - first);
         for (std::size_t lane = 0; lane < lanes; ++lane) {
-            target[s * width_ + lane] = rounded(to, column[column.size() == 1 ? 0 : first + lane]);
+            target.data[s * width_ + lane] = rounded(to, column[column.size() == 1 ? 0 : first + lane]);
         }
     }
 }
@@ -129,11 +139,9 @@ void Machine::begin(const Bindings& bindings, std::size_t first, std::size_t lan
         const Kind kind = type.kind == Kind::array ? module_.type(type.element).kind : type.kind;
         const auto given = bindings.variables.find(variable.name);
         if (kind == Kind::sampler) {
-            std::fill(storage.data.begin(), storage.data.end(), sampler_at(variable.name));
+            attach_sampler(storage);
         } else if (given != bindings.variables.end()) {
-            // Uniforms and varyings keep 32 bits.
-            std::vector<double>& data = storage.data;
-            fill(data, variable.type, given->second, first, false);
+            fill(storage, given->second, first, false);
         } else {
             const bool outside = variable.storage == spv::StorageClassInput ||
                                  variable.storage == spv::StorageClassUniformConstant ||
@@ -152,7 +160,8 @@ void Machine::call(const Function& function) {
     Waiting waiting(function.blocks.size());
     waiting[0] = active_;
     for (int blocks = 0;; ++blocks) {
-        const auto next = std::find_if(waiting.begin(), waiting.end(), [](const auto& lanes) { return !lanes.empty(); });
+        const auto next =
+            std::find_if(waiting.begin(), waiting.end(), [](const auto& lanes) { return !lanes.empty(); });
         if (next == waiting.end()) break;
         const Block& block = function.blocks[static_cast<std::size_t>(next - waiting.begin())];
         if (blocks == kBlockLimit) fail(block.instructions.front(), "a loop that does not end for some input");
@@ -201,14 +210,12 @@ void Machine::leave(const Function& function, const Block& block, const Instruct
     switch (end.op) {
         case spv::OpBranch:
         case spv::OpBranchConditional:
-        case spv::OpSwitch:
-            part(function, block, end, waiting);
-            break;
+        case spv::OpSwitch: part(function, block, end, waiting); break;
         case spv::OpReturnValue: {
             const Type& type = module_.type(function.return_type);
             for (std::size_t s = 0; s < type.scalars; ++s) {
-                const Model to = type.float_leaf[s] ? format(function.relaxed || type.relaxed_leaf[s])
-                                                    : Model::in_double;
+                const Model to =
+                    type.float_leaf[s] ? format(function.relaxed || type.relaxed_leaf[s]) : Model::in_double;
                 double* target = &registers_[function.id].data[s * width_];
                 for (const Lane lane : active_) target[lane] = rounded(to, in(end.operands[0], s)[lane]);
             }
@@ -307,7 +314,7 @@ void Machine::store(const Instruction& one) {
     const Register& pointer = registers_[one.operands[0]];
     const Type& type = type_of(one.operands[1]);
     for (std::size_t s = 0; s < type.scalars; ++s) {
-        const bool relaxed = pointer.relaxed || type.relaxed_leaf[s];
+        const bool relaxed = !pointer.storage->keeps_32_bits && (pointer.relaxed || type.relaxed_leaf[s]);
         const Model to = type.float_leaf[s] && relaxed ? model_ : Model::in_double;
         const double* from = in(one.operands[1], s);
         for (const Lane lane : active_) {
@@ -337,8 +344,7 @@ void Machine::follow(const Instruction& one) {
             if (!is_structure && (index[lane] < 0.0 || index[lane] >= type->count)) {
                 fail(one, fmt::format("index {} of {} elements", index[lane], type->count));
             }
-            result.offset[lane] +=
-                is_structure ? skipped : static_cast<std::uint32_t>(index[lane]) * inner.scalars;
+            result.offset[lane] += is_structure ? skipped : static_cast<std::uint32_t>(index[lane]) * inner.scalars;
         }
         type = &inner;
     }
@@ -361,8 +367,8 @@ void Machine::call_function(const Instruction& one) {
         const Model to = format(module_.relaxed[parameter.id]);
         for (std::size_t s = 0; s < type.scalars; ++s) {
             for (const Lane lane : active_) {
-                formal.data[s * width_ + lane] = rounded(type.float_leaf[s] ? to : Model::in_double,
-                                                         argument.data[s * width_ + lane]);
+                formal.data[s * width_ + lane] =
+                    rounded(type.float_leaf[s] ? to : Model::in_double, argument.data[s * width_ + lane]);
             }
         }
     }

@@ -19,7 +19,8 @@ struct Storage {
     std::vector<double> data;
     Id type = 0;
     std::string name;
-    bool given = true;  ///< false: an input or uniform nobody gave; reading it is an error
+    bool given = true;           ///< false: an input or uniform nobody gave; reading it is an error
+    bool keeps_32_bits = false;  ///< inputs, uniforms and outputs: what is in them is not rounded to their precision
 };
 
 /// What an id holds: a value (laid out as Storage), or a pointer.
@@ -31,8 +32,9 @@ struct Register {
 };
 
 /// GLSL has no recursion, so every id has one register for good and no call needs a stack. All lanes of a block of
-/// instructions run together; where they part, each block of instructions keeps a list of the lanes that wait for it, and
-/// the first block of the function that has any runs next. As SPIR-V orders blocks, lanes meet again where paths do.
+/// instructions run together; where they part, each block of instructions keeps a list of the lanes that wait for it,
+/// and the first block of the function that has any runs next. As SPIR-V orders blocks, lanes meet again where paths
+/// do.
 class Machine {
 public:
     /// `width`: lanes at once. The module and the samplers must outlive the machine.
@@ -46,8 +48,8 @@ public:
     [[nodiscard]] Storage& variable(Id id) { return variables_.at(id); }
     [[nodiscard]] Register& at(Id id) { return registers_[id]; }
     void point(Id pointer, Storage& storage);
-    /// Copies columns[first...] to `target`, rounded to the parameter's precision.
-    void fill(std::vector<double>& target, Id type, const Columns& columns, std::size_t first, bool relaxed) const;
+    /// Copies columns[first...] to `target`, rounded to its precision, to fp32 if it is not `relaxed`.
+    void fill(Storage& target, const Columns& columns, std::size_t first, bool relaxed) const;
     [[nodiscard]] bool discarded(Lane lane) const { return discarded_[lane] != 0; }
     [[nodiscard]] double sampler_at(std::string_view name) const;
     [[nodiscard]] std::size_t width() const { return width_; }
@@ -56,6 +58,7 @@ private:
     // machine.cpp: control flow and memory
     using Waiting = std::vector<std::vector<Lane>>;
     void initialise(Storage& storage, Id initializer) const;
+    void attach_sampler(Storage& storage) const;
     void run_block(const Function& function, const Block& block, Waiting& waiting);
     void leave(const Function& function, const Block& block, const Instruction& end, Waiting& waiting);
     void part(const Function& function, const Block& block, const Instruction& end, Waiting& waiting);
@@ -109,8 +112,8 @@ private:
     /// The format of an instruction that cannot be decorated, such as a comparison: narrow if all floats it reads are.
     [[nodiscard]] Model format_of_inputs(std::span<const Id> arguments) const;
 
-    /// result[s] = f(arguments[0][s], ...) for each scalar s of the result and each active lane. Floats are rounded to the
-    /// operation's format before and after. A scalar argument beside a vector result is the same for all scalars.
+    /// result[s] = f(arguments[0][s], ...) for each scalar s of the result and each active lane. Floats are rounded to
+    /// the operation's format before and after. A scalar argument beside a vector result is the same for all scalars.
     template <typename F, std::size_t... Index>
     void each_of(const Instruction& one, std::span<const Id> arguments, Model before, Model after, F f,
                  std::index_sequence<Index...>) {

@@ -17,10 +17,19 @@ using Id = std::uint32_t;
 /// members of a structure. A sampler is one number, its place in a list.
 struct Type {
     enum class Kind : std::uint8_t {
-        none, boolean, integer, floating, vector, matrix, array, structure, pointer, sampler
+        none,
+        boolean,
+        integer,
+        floating,
+        vector,
+        matrix,
+        array,
+        structure,
+        pointer,
+        sampler
     };
     Kind kind = Kind::none;
-    Id element = 0;          ///< of vectors (scalar), matrices (column), arrays; what a pointer points to
+    Id element = 0;           ///< of vectors (scalar), matrices (column), arrays; what a pointer points to
     std::uint32_t count = 0;  ///< elements
     std::uint32_t scalars = 0;
     bool is_signed = false;  ///< of integers
@@ -28,8 +37,8 @@ struct Type {
     std::vector<bool> float_leaf = {};    ///< per scalar: it is a float
     std::vector<bool> relaxed_leaf = {};  ///< per scalar: a member that holds it is decorated RelaxedPrecision
     spv::StorageClass storage = spv::StorageClassMax;  ///< of pointers
-    std::uint32_t coordinates = 0;  ///< of samplers: how many numbers say where, the layer included
-    std::uint32_t directions = 0;   ///< of samplers: the same without the layer
+    std::uint32_t coordinates = 0;                     ///< of samplers: how many numbers say where, the layer included
+    std::uint32_t directions = 0;                      ///< of samplers: the same without the layer
 };
 
 /// `operands` are the words after the result: ids and literals, as the SPIR-V specification lists them.

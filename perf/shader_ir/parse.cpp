@@ -103,8 +103,7 @@ private:
             case spv::OpMemberDecorate:
                 if (one.operands.at(2) == spv::DecorationRelaxedPrecision)
                     relaxed_member_[one.operands[0]].push_back(one.operands.at(1));
-                if (one.operands.at(2) == spv::DecorationBuiltIn)
-                    built_in_member_[one.operands[0]] = true;
+                if (one.operands.at(2) == spv::DecorationBuiltIn) built_in_member_[one.operands[0]] = true;
                 return true;
             default: return false;
         }
@@ -123,11 +122,8 @@ private:
     }
 
     static Type scalar(Kind kind) {
-        return {.kind = kind,
-                .count = 1,
-                .scalars = 1,
-                .float_leaf = {kind == Kind::floating},
-                .relaxed_leaf = {false}};
+        return {
+            .kind = kind, .count = 1, .scalars = 1, .float_leaf = {kind == Kind::floating}, .relaxed_leaf = {false}};
     }
 
     bool read_type(const Instruction& one) {
@@ -168,9 +164,9 @@ private:
         for (std::uint32_t i = 0; i < type.count; ++i) {
             const Type& inner = module_.type(type.members[i]);
             type.scalars += inner.scalars;
-            append_leaves(type, inner, relaxed != relaxed_member_.end() &&
-                                           std::find(relaxed->second.begin(), relaxed->second.end(), i) !=
-                                               relaxed->second.end());
+            append_leaves(type, inner,
+                          relaxed != relaxed_member_.end() &&
+                              std::find(relaxed->second.begin(), relaxed->second.end(), i) != relaxed->second.end());
         }
         return type;
     }
@@ -241,9 +237,7 @@ private:
                                              .blocks = {},
                                              .block_at = {}});
                 break;
-            case spv::OpFunctionParameter:
-                module_.functions.back().parameters.push_back({one.result, one.type});
-                break;
+            case spv::OpFunctionParameter: module_.functions.back().parameters.push_back({one.result, one.type}); break;
             case spv::OpLabel: {
                 Function& function = module_.functions.back();
                 function.block_at[one.result] = function.blocks.size();

@@ -72,7 +72,8 @@ void Machine::sample(const Instruction& one) {
             next += 2;
         }
         if ((mask & (spv::ImageOperandsConstOffsetMask | spv::ImageOperandsOffsetMask)) != 0) {
-            for (std::size_t c = 0; c < scalars_of(words.at(next)); ++c) request.offset[c] = to_int(in(words[next], c)[lane]);
+            for (std::size_t c = 0; c < scalars_of(words.at(next)); ++c)
+                request.offset[c] = to_int(in(words[next], c)[lane]);
         }
         const std::array<double, 4> texel = samplers_[static_cast<std::size_t>(handle)]->sample(request);
         for (std::size_t s = 0; s < results; ++s) {

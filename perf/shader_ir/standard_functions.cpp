@@ -31,11 +31,13 @@ double widened(Model model, double x, InFloat in_float, InDouble in_double) {
 }  // namespace
 
 double Rounded::exp2(double x) const {
-    return (*this)(widened(model, x, [](float v) { return std::exp2(v); }, [](double v) { return std::exp2(v); }));
+    return (*this)(widened(
+        model, x, [](float v) { return std::exp2(v); }, [](double v) { return std::exp2(v); }));
 }
 
 double Rounded::log2(double x) const {
-    return (*this)(widened(model, x, [](float v) { return std::log2(v); }, [](double v) { return std::log2(v); }));
+    return (*this)(widened(
+        model, x, [](float v) { return std::log2(v); }, [](double v) { return std::log2(v); }));
 }
 
 double Rounded::power(double x, double y) const {
@@ -52,9 +54,18 @@ bool Machine::run_standard(const Instruction& one) {
 bool Machine::run_standard_scalar(const Instruction& one) {
     const std::span<const Id> args = std::span(one.operands).subspan(2);
     const Rounded to{format(one)};
-    const auto unary = [&](auto f) { each_float<1>(one, args, f); return true; };
-    const auto binary = [&](auto f) { each_float<2>(one, args, f); return true; };
-    const auto ternary = [&](auto f) { each_float<3>(one, args, f); return true; };
+    const auto unary = [&](auto f) {
+        each_float<1>(one, args, f);
+        return true;
+    };
+    const auto binary = [&](auto f) {
+        each_float<2>(one, args, f);
+        return true;
+    };
+    const auto ternary = [&](auto f) {
+        each_float<3>(one, args, f);
+        return true;
+    };
     const bool in_double = to.model == Model::in_double;
     switch (one.operands[1]) {
         // GLSL leaves the direction of round(0.5) open; Mesa rounds to even.
@@ -70,16 +81,17 @@ bool Machine::run_standard_scalar(const Instruction& one) {
         case GLSLstd450Degrees: return unary([&](double x) { return x * to(180.0 / pi); });
         case GLSLstd450Sin:
             return unary([&](double x) {
-                return widened(to.model, x, [](float v) { return std::sin(v); }, [](double v) { return std::sin(v); });
+                return widened(
+                    to.model, x, [](float v) { return std::sin(v); }, [](double v) { return std::sin(v); });
             });
         case GLSLstd450Cos:
             return unary([&](double x) {
-                return widened(to.model, x, [](float v) { return std::cos(v); }, [](double v) { return std::cos(v); });
+                return widened(
+                    to.model, x, [](float v) { return std::cos(v); }, [](double v) { return std::cos(v); });
             });
         case GLSLstd450Tan:
-            return unary([&](double x) {
-                return in_double ? std::tan(x) : to.quotient(to(std::sin(x)), to(std::cos(x)));
-            });
+            return unary(
+                [&](double x) { return in_double ? std::tan(x) : to.quotient(to(std::sin(x)), to(std::cos(x))); });
         case GLSLstd450Asin: return unary([](double x) { return std::asin(x); });
         case GLSLstd450Acos: return unary([](double x) { return std::acos(x); });
         case GLSLstd450Atan: return unary([](double x) { return std::atan(x); });
@@ -92,9 +104,8 @@ bool Machine::run_standard_scalar(const Instruction& one) {
         case GLSLstd450Atan2: return binary([](double y, double x) { return std::atan2(y, x); });
         case GLSLstd450Pow: return binary([&](double x, double y) { return to.power(x, y); });
         case GLSLstd450Exp:
-            return unary([&](double x) {
-                return in_double ? std::exp(x) : to.exp2(to.product(x, to(std::numbers::log2e)));
-            });
+            return unary(
+                [&](double x) { return in_double ? std::exp(x) : to.exp2(to.product(x, to(std::numbers::log2e))); });
         case GLSLstd450Log:
             return unary([&](double x) { return in_double ? std::log(x) : to.log2(x) * to(std::numbers::ln2); });
         case GLSLstd450Exp2: return unary([&](double x) { return to.exp2(x); });
@@ -123,9 +134,18 @@ bool Machine::run_standard_scalar(const Instruction& one) {
 
 bool Machine::run_standard_integer(const Instruction& one) {
     const std::span<const Id> args = std::span(one.operands).subspan(2);
-    const auto unary = [&](auto f) { each_exact<1>(one, args, f); return true; };
-    const auto binary = [&](auto f) { each_exact<2>(one, args, f); return true; };
-    const auto ternary = [&](auto f) { each_exact<3>(one, args, f); return true; };
+    const auto unary = [&](auto f) {
+        each_exact<1>(one, args, f);
+        return true;
+    };
+    const auto binary = [&](auto f) {
+        each_exact<2>(one, args, f);
+        return true;
+    };
+    const auto ternary = [&](auto f) {
+        each_exact<3>(one, args, f);
+        return true;
+    };
     switch (one.operands[1]) {
         case GLSLstd450SAbs: return unary([](double x) { return x == -0x1p31 ? x : std::fabs(x); });
         case GLSLstd450SSign: return unary(sign_of);

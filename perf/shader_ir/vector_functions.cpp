@@ -47,8 +47,7 @@ Values reflect(const Rounded& to, const Values& incident, const Values& normal) 
 
 Values refract(const Rounded& to, const Values& incident, const Values& normal, double eta) {
     const double d = to.dot(normal, incident);
-    const double k =
-        to.difference(1.0, to.product(eta, to.product(eta, to.difference(1.0, to.product(d, d)))));
+    const double k = to.difference(1.0, to.product(eta, to.product(eta, to.difference(1.0, to.product(d, d)))));
     Values result(incident.size(), 0.0);
     if (k < 0.0) return result;
     const double along = to.sum(to.product(eta, d), to.root(k));
@@ -95,8 +94,8 @@ Values inverse(const Rounded& to, const Values& matrix, std::size_t n) {
 
 /// A normalised number of `bits` bits, as GLSL ES 3.00, 8.4 writes it.
 std::uint32_t normalised(double x, std::uint32_t bits, bool is_signed) {
-    const double most = is_signed ? std::ldexp(1.0, static_cast<int>(bits) - 1) - 1.0
-                                  : std::ldexp(1.0, static_cast<int>(bits)) - 1.0;
+    const double most =
+        is_signed ? std::ldexp(1.0, static_cast<int>(bits) - 1) - 1.0 : std::ldexp(1.0, static_cast<int>(bits)) - 1.0;
     const double clamped = std::clamp(std::isnan(x) ? 0.0 : x, is_signed ? -1.0 : 0.0, 1.0);
     const auto code = static_cast<std::int32_t>(std::lround(clamped * most));
     return static_cast<std::uint32_t>(code) & ((std::uint32_t{1} << bits) - 1u);
@@ -153,7 +152,8 @@ bool Machine::run_standard_vector(const Instruction& one) {
             case GLSLstd450Normalize: result = normalize(to, v[0]); break;
             case GLSLstd450FaceForward:
                 result = v[0];
-                if (!(to.dot(v[2], v[1]) < 0.0)) std::transform(v[0].begin(), v[0].end(), result.begin(), std::negate());
+                if (!(to.dot(v[2], v[1]) < 0.0))
+                    std::transform(v[0].begin(), v[0].end(), result.begin(), std::negate());
                 break;
             case GLSLstd450Reflect: result = reflect(to, v[0], v[1]); break;
             case GLSLstd450Refract: result = refract(to, v[0], v[1], v[2][0]); break;

@@ -23,13 +23,13 @@ constexpr std::size_t kLanes = kSide * kSide;
 
 /// How a parameter's values are drawn.
 enum class Draw {
-    any_half,  ///< every half is as likely: infinities, NaN and subnormals too
-    unit,      ///< halves in [0, 1], with 0 and 1
-    wide,      ///< halves in [-2, 10]
-    positive,  ///< halves in [2^-10, 2048]
-    direction, ///< fp32 unit vectors
-    near_direction,  ///< the same vectors, moved by up to 0.1
-    metres_squared,  ///< fp32 in [0.001, 120]
+    any_half,               ///< every half is as likely: infinities, NaN and subnormals too
+    unit,                   ///< halves in [0, 1], with 0 and 1
+    wide,                   ///< halves in [-2, 10]
+    positive,               ///< halves in [2^-10, 2048]
+    direction,              ///< fp32 unit vectors
+    near_direction,         ///< the same vectors, moved by up to 0.1
+    metres_squared,         ///< fp32 in [0.001, 120]
     inverse_range_squared,  ///< fp32 in [0.005, 0.05]
     one,
 };
@@ -43,8 +43,8 @@ struct Probe {
     std::string function;  ///< as Module::function wants it
     const char* returns;
     std::vector<Parameter> parameters;
-    /// Where the driver computes something else than the text says: the function that says what it does compute, which the
-    /// model runs instead. nullptr: as written.
+    /// Where the driver computes something else than the text says: the function that says what it does compute, which
+    /// the model runs instead. nullptr: as written.
     const char* as_compiled = nullptr;
 };
 
@@ -172,7 +172,10 @@ private:
         const int returned = components(probe.returns);
         const std::string plain = probe.function.substr(0, probe.function.find('('));
         body += fmt::format("    fragment_color = vec4({}({}){});\n", plain, arguments,
-                            returned == 1 ? ", 0.0, 0.0, 1.0" : returned == 2 ? ", 0.0, 1.0" : returned == 3 ? ", 1.0" : "");
+                            returned == 1   ? ", 0.0, 0.0, 1.0"
+                            : returned == 2 ? ", 0.0, 1.0"
+                            : returned == 3 ? ", 1.0"
+                                            : "");
         return text + "void main() {\n" + body + "}\n";
     }
 
@@ -215,7 +218,8 @@ protected:
     void SetUp() override {
         GlFixture::SetUp();
         if (IsSkipped()) return;
-        if (caps().es_version < 30) GTEST_SKIP() << "this context is ES " << caps().es_version << "; texelFetch needs 30";
+        if (caps().es_version < 30)
+            GTEST_SKIP() << "this context is ES " << caps().es_version << "; texelFetch needs 30";
         const perf::PrecisionProbe probe = perf::probe_precision(gl(), caps());
         if (!probe.mediump.is_half() || probe.mediump.overflow != perf::Overflow::to_infinity ||
             !probe.mediump.keeps_subnormals) {
@@ -246,8 +250,8 @@ protected:
     }
 
 private:
-    /// Counts and prints where the model's `function` differs from the driver's picture. A failure for any, if the probe
-    /// names no rewriting.
+    /// Counts and prints where the model's `function` differs from the driver's picture. A failure for any, if the
+    /// probe names no rewriting.
     static std::size_t mismatches(const Probe& probe, const std::vector<Columns>& inputs, const Module& module,
                                   const std::string& function, const std::vector<float>& pixels) {
         const Columns model = evaluate(module, function, inputs, Model::half).returned;
@@ -278,31 +282,46 @@ TEST_F(HalfOnTheDriver, AgreesOnTheEnginesFunctions) {
     const std::vector<std::string> files{"surface/surface_limits.h", "common/maths.glsl",      "common/colour.glsl",
                                          "common/packing.glsl",      "tone_map/tone_map.glsl", "sky/sky.glsl",
                                          "surface/surface.glsl"};
-    const std::string as_compiled = "vec3 unpacked_as_compiled(vec3 stored) { return stored * (stored * SCENE_COLOR_RANGE); }\n";
-    expect_agreement(files, as_compiled, {
-        {"saturate", "float", {{"float", Draw::any_half}}},
-        {"pow5", "float", {{"float", Draw::wide}}},
-        {"storable(vf3;f1;", "vec3", {{"vec3", Draw::any_half}, {"float", Draw::positive}}},
-        {"tone_map", "vec3", {{"vec3", Draw::any_half}}},
-        {"inverse_tone_map", "vec3", {{"vec3", Draw::wide}}},
-        {"inverse_tone_map", "vec3", {{"vec3", Draw::unit}}},
-        {"packed_scene_color", "vec3", {{"vec3", Draw::any_half}}},
-        // (s s) 8 is compiled as s (s 8): one rounding fewer among subnormals, overflow a little earlier or later.
-        {"unpacked_scene_color", "vec3", {{"vec3", Draw::any_half}}, "unpacked_as_compiled"},
-        {"linear_from_srgb(vf3;", "vec3", {{"vec3", Draw::unit}}},
-        {"sky_gradient", "vec3", {{"float", Draw::wide}, {"vec3", Draw::unit}, {"vec3", Draw::unit}, {"vec3", Draw::unit}}},
-        {"sky_gradient", "vec3", {{"float", Draw::unit}, {"vec3", Draw::unit}, {"vec3", Draw::unit}, {"vec3", Draw::unit}}},
-        {"fresnel_schlick", "vec3", {{"vec3", Draw::unit}, {"float", Draw::unit}}},
-        {"fresnel_glossy", "vec3", {{"vec3", Draw::unit}, {"float", Draw::unit}, {"float", Draw::unit}}},
-        {"power_from_roughness", "float", {{"float", Draw::unit}}},
-        {"smoothness_from_power", "float", {{"float", Draw::positive}}},
-        {"blinn_lobe", "float", {{"vec3", Draw::direction}, {"vec3", Draw::near_direction}, {"float", Draw::positive}}},
-        {"distance_falloff", "float", {{"float", Draw::metres_squared}, {"float", Draw::inverse_range_squared}}},
-        {"cone_falloff", "float", {{"float", Draw::unit}, {"float", Draw::unit}, {"float", Draw::wide}}},
-        {"direct_light", "vec3", {{"vec3", Draw::unit}, {"vec3", Draw::unit}, {"float", Draw::positive},
-                                  {"vec3", Draw::direction}, {"vec3", Draw::near_direction}, {"vec3", Draw::direction},
-                                  {"vec3", Draw::unit}}},
-    });
+    const std::string as_compiled =
+        "vec3 unpacked_as_compiled(vec3 stored) { return stored * (stored * SCENE_COLOR_RANGE); }\n";
+    expect_agreement(
+        files, as_compiled,
+        {
+            {"saturate", "float", {{"float", Draw::any_half}}},
+            {"pow5", "float", {{"float", Draw::wide}}},
+            {"storable(vf3;f1;", "vec3", {{"vec3", Draw::any_half}, {"float", Draw::positive}}},
+            {"tone_map", "vec3", {{"vec3", Draw::any_half}}},
+            {"inverse_tone_map", "vec3", {{"vec3", Draw::wide}}},
+            {"inverse_tone_map", "vec3", {{"vec3", Draw::unit}}},
+            {"packed_scene_color", "vec3", {{"vec3", Draw::any_half}}},
+            // (s s) 8 is compiled as s (s 8): one rounding fewer among subnormals, overflow a little earlier or later.
+            {"unpacked_scene_color", "vec3", {{"vec3", Draw::any_half}}, "unpacked_as_compiled"},
+            {"linear_from_srgb(vf3;", "vec3", {{"vec3", Draw::unit}}},
+            {"sky_gradient",
+             "vec3",
+             {{"float", Draw::wide}, {"vec3", Draw::unit}, {"vec3", Draw::unit}, {"vec3", Draw::unit}}},
+            {"sky_gradient",
+             "vec3",
+             {{"float", Draw::unit}, {"vec3", Draw::unit}, {"vec3", Draw::unit}, {"vec3", Draw::unit}}},
+            {"fresnel_schlick", "vec3", {{"vec3", Draw::unit}, {"float", Draw::unit}}},
+            {"fresnel_glossy", "vec3", {{"vec3", Draw::unit}, {"float", Draw::unit}, {"float", Draw::unit}}},
+            {"power_from_roughness", "float", {{"float", Draw::unit}}},
+            {"smoothness_from_power", "float", {{"float", Draw::positive}}},
+            {"blinn_lobe",
+             "float",
+             {{"vec3", Draw::direction}, {"vec3", Draw::near_direction}, {"float", Draw::positive}}},
+            {"distance_falloff", "float", {{"float", Draw::metres_squared}, {"float", Draw::inverse_range_squared}}},
+            {"cone_falloff", "float", {{"float", Draw::unit}, {"float", Draw::unit}, {"float", Draw::wide}}},
+            {"direct_light",
+             "vec3",
+             {{"vec3", Draw::unit},
+              {"vec3", Draw::unit},
+              {"float", Draw::positive},
+              {"vec3", Draw::direction},
+              {"vec3", Draw::near_direction},
+              {"vec3", Draw::direction},
+              {"vec3", Draw::unit}}},
+        });
 }
 
 TEST_F(HalfOnTheDriver, AgreesOnBuiltInFunctions) {
@@ -327,7 +346,8 @@ TEST_F(HalfOnTheDriver, AgreesOnBuiltInFunctions) {
         "vec3 try_mix33(vec3 x, vec3 y, vec3 a) { return mix(x, y, a); }\n"
         "vec4 try_matrix4(vec4 x, vec4 y, vec4 z, vec4 w, vec4 v) { return mat4(x, y, z, w) * v; }\n"
         "vec2 try_matrix2(vec2 x, vec2 y, vec2 v) { return mat2(x, y) * v; }\n"
-        "vec3 try_matrices(vec3 x, vec3 y, vec3 z, vec3 u, vec3 v) { mat3 m = mat3(x, y, z) * mat3(u, v, u); return vec3(m[0].x, m[1].y, m[2].z); }\n"
+        "vec3 try_matrices(vec3 x, vec3 y, vec3 z, vec3 u, vec3 v) { mat3 m = mat3(x, y, z) * mat3(u, v, u); return "
+        "vec3(m[0].x, m[1].y, m[2].z); }\n"
         "float try_smoothstep(float a, float b, float x, float one) { return smoothstep(a * one, b * one, x * one); }\n"
         "float try_dot(vec3 x, vec3 y) { return dot(x, y); }\n"
         "float try_dot4(vec4 x, vec4 y) { return dot(x, y); }\n"
@@ -346,34 +366,55 @@ TEST_F(HalfOnTheDriver, AgreesOnBuiltInFunctions) {
     const Parameter any{"vec3", Draw::any_half};
     const Parameter wide{"vec3", Draw::wide};
     const Parameter four{"vec4", Draw::wide};
-    expect_agreement({}, text, {
-        unary("try_exp2", Draw::any_half), unary("try_exp2", Draw::wide), unary("try_log2", Draw::any_half),
-        unary("try_exp", Draw::wide), unary("try_log", Draw::any_half), unary("try_sqrt", Draw::any_half),
-        unary("try_inversesqrt", Draw::any_half), unary("try_sin", Draw::wide), unary("try_cos", Draw::wide),
-        unary("try_floor", Draw::any_half), unary("try_fract", Draw::any_half), unary("try_round", Draw::any_half),
-        {"try_pow", "float", {{"float", Draw::positive}, {"float", Draw::wide}, {"float", Draw::one}}},
-        {"try_pow", "float", {{"float", Draw::unit}, {"float", Draw::wide}, {"float", Draw::one}}},
-        {"try_mod", "float", {{"float", Draw::wide}, {"float", Draw::positive}, {"float", Draw::one}}},
-        {"try_divide", "float", {{"float", Draw::any_half}, {"float", Draw::any_half}, {"float", Draw::one}}},
-        {"try_mix", "float", {{"float", Draw::wide}, {"float", Draw::wide}, {"float", Draw::unit}, {"float", Draw::one}}},
-        {"try_mix3", "vec3", {wide, wide, {"float", Draw::unit}}}, {"try_mix33", "vec3", {wide, wide, {"vec3", Draw::unit}}},
-        {"try_matrix4", "vec4", {four, four, four, four, four}},
-        {"try_matrix2", "vec2", {{"vec2", Draw::wide}, {"vec2", Draw::wide}, {"vec2", Draw::wide}}},
-        {"try_matrices", "vec3", {wide, wide, wide, wide, wide}},
-        {"try_smoothstep", "float", {{"float", Draw::unit}, {"float", Draw::wide}, {"float", Draw::wide}, {"float", Draw::one}}},
-        {"try_dot", "float", {wide, any}}, {"try_dot", "float", {any, any}},
-        {"try_dot4", "float", {{"vec4", Draw::wide}, {"vec4", Draw::wide}}},
-        {"try_length", "float", {wide}}, {"try_length", "float", {any}}, {"try_distance", "float", {wide, wide}},
-        {"try_normalize", "vec3", {wide}}, {"try_normalize", "vec3", {any}}, {"try_cross", "vec3", {wide, wide}},
-        {"try_reflect", "vec3", {wide, wide}},
-        {"try_refract", "vec3", {{"vec3", Draw::unit}, {"vec3", Draw::unit}, {"float", Draw::unit}}},
-        {"try_matrix", "vec3", {wide, wide, wide, wide}}, {"try_row", "vec3", {wide, wide, wide, wide}},
-        {"try_clamp", "float", {{"float", Draw::any_half}, {"float", Draw::positive}, {"float", Draw::one}}},
-    });
+    expect_agreement(
+        {}, text,
+        {
+            unary("try_exp2", Draw::any_half),
+            unary("try_exp2", Draw::wide),
+            unary("try_log2", Draw::any_half),
+            unary("try_exp", Draw::wide),
+            unary("try_log", Draw::any_half),
+            unary("try_sqrt", Draw::any_half),
+            unary("try_inversesqrt", Draw::any_half),
+            unary("try_sin", Draw::wide),
+            unary("try_cos", Draw::wide),
+            unary("try_floor", Draw::any_half),
+            unary("try_fract", Draw::any_half),
+            unary("try_round", Draw::any_half),
+            {"try_pow", "float", {{"float", Draw::positive}, {"float", Draw::wide}, {"float", Draw::one}}},
+            {"try_pow", "float", {{"float", Draw::unit}, {"float", Draw::wide}, {"float", Draw::one}}},
+            {"try_mod", "float", {{"float", Draw::wide}, {"float", Draw::positive}, {"float", Draw::one}}},
+            {"try_divide", "float", {{"float", Draw::any_half}, {"float", Draw::any_half}, {"float", Draw::one}}},
+            {"try_mix",
+             "float",
+             {{"float", Draw::wide}, {"float", Draw::wide}, {"float", Draw::unit}, {"float", Draw::one}}},
+            {"try_mix3", "vec3", {wide, wide, {"float", Draw::unit}}},
+            {"try_mix33", "vec3", {wide, wide, {"vec3", Draw::unit}}},
+            {"try_matrix4", "vec4", {four, four, four, four, four}},
+            {"try_matrix2", "vec2", {{"vec2", Draw::wide}, {"vec2", Draw::wide}, {"vec2", Draw::wide}}},
+            {"try_matrices", "vec3", {wide, wide, wide, wide, wide}},
+            {"try_smoothstep",
+             "float",
+             {{"float", Draw::unit}, {"float", Draw::wide}, {"float", Draw::wide}, {"float", Draw::one}}},
+            {"try_dot", "float", {wide, any}},
+            {"try_dot", "float", {any, any}},
+            {"try_dot4", "float", {{"vec4", Draw::wide}, {"vec4", Draw::wide}}},
+            {"try_length", "float", {wide}},
+            {"try_length", "float", {any}},
+            {"try_distance", "float", {wide, wide}},
+            {"try_normalize", "vec3", {wide}},
+            {"try_normalize", "vec3", {any}},
+            {"try_cross", "vec3", {wide, wide}},
+            {"try_reflect", "vec3", {wide, wide}},
+            {"try_refract", "vec3", {{"vec3", Draw::unit}, {"vec3", Draw::unit}, {"float", Draw::unit}}},
+            {"try_matrix", "vec3", {wide, wide, wide, wide}},
+            {"try_row", "vec3", {wide, wide, wide, wide}},
+            {"try_clamp", "float", {{"float", Draw::any_half}, {"float", Draw::positive}, {"float", Draw::one}}},
+        });
 }
 
-// Every expression that Mesa is known to rewrite so that halves show it, with what it becomes. A formula whose stability
-// rests on one of the left forms has to be written in another way.
+// Every expression that Mesa is known to rewrite so that halves show it, with what it becomes. A formula whose
+// stability rests on one of the left forms has to be written in another way.
 TEST_F(HalfOnTheDriver, RewritesTheseExpressionsAsNamed) {
     const std::string text =
         // A sum with constants: 0.0275 + (1 - y) becomes 1.0275 - y, which loses the bits that the first form keeps.
@@ -397,15 +438,16 @@ TEST_F(HalfOnTheDriver, RewritesTheseExpressionsAsNamed) {
     const Parameter wide{"vec3", Draw::wide};
     const Parameter unit{"vec3", Draw::unit};
     const Parameter share{"float", Draw::unit};
-    expect_agreement({}, text, {
-        {"sum_of_constants", "vec3", {unit}, "sum_of_constants_compiled"},
-        {"product", "vec3", {{"vec3", Draw::any_half}}, "product_compiled"},
-        {"common_factor", "vec3", {wide, wide}, "common_factor_compiled"},
-        {"mix_from_constant", "vec3", {wide, share}, "mix_from_constant_compiled"},
-        {"mix_to_constant", "vec3", {wide, share}, "mix_to_constant_compiled"},
-        {"mix_by_constant", "vec3", {wide, wide}, "mix_by_constant_compiled"},
-        {"mix_from_one", "vec3", {wide, share}, "mix_from_one_compiled"},
-    });
+    expect_agreement({}, text,
+                     {
+                         {"sum_of_constants", "vec3", {unit}, "sum_of_constants_compiled"},
+                         {"product", "vec3", {{"vec3", Draw::any_half}}, "product_compiled"},
+                         {"common_factor", "vec3", {wide, wide}, "common_factor_compiled"},
+                         {"mix_from_constant", "vec3", {wide, share}, "mix_from_constant_compiled"},
+                         {"mix_to_constant", "vec3", {wide, share}, "mix_to_constant_compiled"},
+                         {"mix_by_constant", "vec3", {wide, wide}, "mix_by_constant_compiled"},
+                         {"mix_from_one", "vec3", {wide, share}, "mix_from_one_compiled"},
+                     });
 }
 
 TEST_F(HalfOnTheDriver, SeesAPlantedDifference) {

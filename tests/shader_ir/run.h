@@ -35,8 +35,8 @@ inline std::vector<double> first_lane(const Columns& columns) {
 
 /// What `function` returns for one lane.
 inline std::vector<double> result_of(const Module& module, const std::string& function,
-                                     const std::vector<std::vector<double>>& arguments,
-                                     Model model = Model::in_double, const Bindings& bindings = {}) {
+                                     const std::vector<std::vector<double>>& arguments, Model model = Model::in_double,
+                                     const Bindings& bindings = {}) {
     return first_lane(evaluate(module, function, lane(arguments), model, bindings).returned);
 }
 

@@ -16,7 +16,7 @@ constexpr double kConstants = 3e-7;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-const std::vector<std::string> kFiles{"surface/surface_limits.h", "common/maths.glsl",    "common/colour.glsl",
+const std::vector<std::string> kFiles{"surface/surface_limits.h", "common/maths.glsl",      "common/colour.glsl",
                                       "common/packing.glsl",      "tone_map/tone_map.glsl", "sky/sky.glsl",
                                       "surface/surface.glsl"};
 
@@ -86,10 +86,13 @@ TEST(Shaders, ToneMapAndItsInverse) {
     });
     const Columns display = columns(2, 3, -0.2, 1.2);
     // 1e-5: at 1 the curve has a slope of 299, which multiplies the constants' error of 3e-8.
-    expect_function("inverse_tone_map", {display}, [&](std::size_t i, std::size_t s) {
-        const double y = clamped(display[s][i]);
-        return 0.22 * y / (1.0275 - y);
-    }, 1e-5);
+    expect_function(
+        "inverse_tone_map", {display},
+        [&](std::size_t i, std::size_t s) {
+            const double y = clamped(display[s][i]);
+            return 0.22 * y / (1.0275 - y);
+        },
+        1e-5);
 }
 
 TEST(Shaders, PackingStorableAndColour) {
@@ -99,20 +102,22 @@ TEST(Shaders, PackingStorableAndColour) {
     expect_function("unpacked_scene_color", {light},
                     [&](std::size_t i, std::size_t s) { return 8.0 * light[s][i] * light[s][i]; });
     const Columns wild = columns(4, 3, -10.0, 30.0);
-    expect_function("storable(vf3;f1;", {wild, {{20.0}}}, [&](std::size_t i, std::size_t s) {
-        return std::clamp(wild[s][i], 0.0, 20.0);
-    });
+    expect_function("storable(vf3;f1;", {wild, {{20.0}}},
+                    [&](std::size_t i, std::size_t s) { return std::clamp(wild[s][i], 0.0, 20.0); });
     const Columns nothing{{NAN, INFINITY, -INFINITY}};
-    const Columns stored =
-        evaluate(functions(gl::Arithmetic::half), "storable(f1;f1;", std::vector{nothing, Columns{{65504.0}}},
-                 Model::half).returned;
+    const Columns stored = evaluate(functions(gl::Arithmetic::half), "storable(f1;f1;",
+                                    std::vector{nothing, Columns{{65504.0}}}, Model::half)
+                               .returned;
     EXPECT_EQ(stored[0], (std::vector{0.0, 65504.0, 0.0}));
     const Columns srgb = columns(5, 3, 0.0, 1.0);
     // 0.0018: the cubic's stated distance from IEC 61966-2-1.
-    expect_function("linear_from_srgb(vf3;", {srgb}, [&](std::size_t i, std::size_t s) {
-        const double v = srgb[s][i];
-        return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-    }, 0.0018);
+    expect_function(
+        "linear_from_srgb(vf3;", {srgb},
+        [&](std::size_t i, std::size_t s) {
+            const double v = srgb[s][i];
+            return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+        },
+        0.0018);
 }
 
 TEST(Shaders, SkyGradient) {
@@ -133,9 +138,8 @@ TEST(Shaders, FresnelRoughnessAndSmoothness) {
     const Columns cosine = columns(11, 1, 0.0, 1.1);
     const Columns smoothness = columns(12, 1, 0.0, 1.0);
     const auto fifth = [&](std::size_t i) { return std::pow(clamped(1.0 - cosine[0][i]), 5.0); };
-    expect_function("fresnel_schlick", {specular, cosine}, [&](std::size_t i, std::size_t s) {
-        return specular[s][i] + (1.0 - specular[s][i]) * fifth(i);
-    });
+    expect_function("fresnel_schlick", {specular, cosine},
+                    [&](std::size_t i, std::size_t s) { return specular[s][i] + (1.0 - specular[s][i]) * fifth(i); });
     expect_function("fresnel_glossy", {specular, smoothness, cosine}, [&](std::size_t i, std::size_t s) {
         return specular[s][i] + (std::max(smoothness[0][i], specular[s][i]) - specular[s][i]) * fifth(i);
     });
@@ -144,9 +148,8 @@ TEST(Shaders, FresnelRoughnessAndSmoothness) {
         return std::clamp(2.0 / std::pow(roughness[0][i], 4.0) - 2.0, 2.0, 2048.0);
     });
     const Columns power = columns(14, 1, 2.0, 2048.0);
-    expect_function("smoothness_from_power", {power}, [&](std::size_t i, std::size_t) {
-        return (std::log(power[0][i]) / std::log(2.0) - 1.0) / 10.0;
-    });
+    expect_function("smoothness_from_power", {power},
+                    [&](std::size_t i, std::size_t) { return (std::log(power[0][i]) / std::log(2.0) - 1.0) / 10.0; });
 }
 
 TEST(Shaders, LobeFalloffAndLight) {
@@ -157,16 +160,19 @@ TEST(Shaders, LobeFalloffAndLight) {
         return a[0][i] * b[0][i] + a[1][i] * b[1][i] + a[2][i] * b[2][i];
     };
     // 6e-3: the error that the chord's series states, of a peak of 1.
-    expect_function("blinn_lobe", {n, h, power}, [&](std::size_t i, std::size_t) {
-        return std::pow(dot(n, h, i), power[0][i]);
-    }, 6e-3);
+    expect_function(
+        "blinn_lobe", {n, h, power}, [&](std::size_t i, std::size_t) { return std::pow(dot(n, h, i), power[0][i]); },
+        6e-3);
     const Columns square = columns(17, 1, 0.001, 120.0);
     const Columns range = columns(18, 1, 0.01, 0.04);
-    expect_function("distance_falloff", {square, range}, [&](std::size_t i, std::size_t) {
-        const double ratio = square[0][i] * range[0][i];
-        const double window = std::max(1.0 - ratio * ratio, 0.0);
-        return window * window / std::max(square[0][i], 1e-5 / range[0][i]);
-    }, 1e-6);
+    expect_function(
+        "distance_falloff", {square, range},
+        [&](std::size_t i, std::size_t) {
+            const double ratio = square[0][i] * range[0][i];
+            const double window = std::max(1.0 - ratio * ratio, 0.0);
+            return window * window / std::max(square[0][i], 1e-5 / range[0][i]);
+        },
+        1e-6);
     const Columns cosine = columns(19, 1, -1.0, 1.0);
     expect_function("cone_falloff", {cosine, {{0.2}}, {{2.0}}}, [&](std::size_t i, std::size_t) {
         const double t = clamped((cosine[0][i] - 0.2) * 2.0);
@@ -200,7 +206,10 @@ gl::ProgramDescription tone_map_program(gl::Dialect dialect) {
 }
 
 TEST(Shaders, MainOfTheToneMapWithATextureOnTheCpu) {
-    const Sampler scene{.sample = [](const SampleRequest& at) { return std::array{at.at[0] * 10.0, kNaN, -1.0, 1.0}; },
+    const Sampler scene{.sample =
+                            [](const SampleRequest& at) {
+                                return std::array{at.at[0] * 10.0, kNaN, -1.0, 1.0};
+                            },
                         .size = {}};
     const Bindings bindings{.variables = {{"vertex_uv", {{0.0, 0.125, 0.5, 1.0}, {0.5}}}},
                             .samplers = {{"scene_color", scene}}};
@@ -227,7 +236,7 @@ TEST(Shaders, EveryStageOfTheFrameIsEvaluatedInEveryModel) {
     surface.vertex = "surface/surface.vert";
     surface.fragment = "surface/surface.frag";
     surface.arithmetic = gl::Arithmetic::half;
-    surface.defines = {{"TIER_CONSOLE", "1"}, {"SUN", "1"}, {"LOCAL_LIGHTS", "1"}, {"NORMAL_MAP", "1"},
+    surface.defines = {{"TIER_CONSOLE", "1"},   {"SUN", "1"},       {"LOCAL_LIGHTS", "1"}, {"NORMAL_MAP", "1"},
                        {"BASE_COLOR_MAP", "1"}, {"ALPHA_MASK", "1"}};
     const Sampler grey{.sample = [](const SampleRequest&) { return std::array{0.5, 0.5, 1.0, 1.0}; }, .size = {}};
     Bindings bindings;
@@ -239,13 +248,20 @@ TEST(Shaders, EveryStageOfTheFrameIsEvaluatedInEveryModel) {
         }
         return result;
     };
-    bindings.variables = {{"vertex_to_eye", {{0}, {0}, {3}}}, {"vertex_uv", {{0.5}, {0.5}}},
-                          {"vertex_normal", {{0}, {0}, {1}}}, {"vertex_tangent", {{1}, {0}, {0}, {1}}},
-                          {"base_color", {{0.8}, {0.8}, {0.8}, {1}}}, {"emissive", {{0}, {0}, {0}, {0.5}}},
-                          {"factors", {{0}, {0.5}, {1}, {0}}}, {"ambient", {{0.1}, {0.1}, {0.1}, {0}}},
-                          {"sun_direction", {{0}, {0}, {1}, {0}}}, {"sun_color", {{1}, {1}, {1}, {0}}},
-                          {"light_position", repeat({0, 0, -2, 0.01}, 8)}, {"light_color", repeat({1, 1, 1, 0}, 8)},
-                          {"light_direction", repeat({0, 0, 1, 0}, 8)}, {"light_count", {{1}, {0}, {0}, {0}}}};
+    bindings.variables = {{"vertex_to_eye", {{0}, {0}, {3}}},
+                          {"vertex_uv", {{0.5}, {0.5}}},
+                          {"vertex_normal", {{0}, {0}, {1}}},
+                          {"vertex_tangent", {{1}, {0}, {0}, {1}}},
+                          {"base_color", {{0.8}, {0.8}, {0.8}, {1}}},
+                          {"emissive", {{0}, {0}, {0}, {0.5}}},
+                          {"factors", {{0}, {0.5}, {1}, {0}}},
+                          {"ambient", {{0.1}, {0.1}, {0.1}, {0}}},
+                          {"sun_direction", {{0}, {0}, {1}, {0}}},
+                          {"sun_color", {{1}, {1}, {1}, {0}}},
+                          {"light_position", repeat({0, 0, -2, 0.01}, 8)},
+                          {"light_color", repeat({1, 1, 1, 0}, 8)},
+                          {"light_direction", repeat({0, 0, 1, 0}, 8)},
+                          {"light_count", {{1}, {0}, {0}, {0}}}};
     for (const Cleaning cleaning : {Cleaning::none, Cleaning::inlined}) {
         const Module module = compile(surface, gl::Stage::fragment, cleaning);
         const double exact =
@@ -298,7 +314,11 @@ TEST(MixedPrecision, DecidesPerOperation) {
 
 TEST(MixedPrecision, HalfIsWhereTheTextSaysMediump) {
     const Module module = module_of(
+        "struct Held { mediump float a; highp float b; };\n"
         "uniform mediump float u;\n"
+        "uniform Held held;\n"
+        "highp float from_structure() { return held.a; }\n"
+        "highp vec2 through_structure(highp float x) { Held h = Held(x, x); h.b += 0.0; return vec2(h.a, h.b); }\n"
         "mediump float narrow(mediump float x) { return x + 1.0; }\n"
         "highp float wide(highp float x) { return x + 1.0; }\n"
         "highp float passed(mediump float x, highp float y) { return x + y; }\n"
@@ -313,21 +333,27 @@ TEST(MixedPrecision, HalfIsWhereTheTextSaysMediump) {
         const double x = 0x1p-12;
         EXPECT_EQ(number_of(module, "narrow", {{x}}, model), narrow ? 1.0 : 1.0 + x) << name(model);
         EXPECT_EQ(number_of(module, "wide", {{x}}, model), 1.0 + x) << name(model);
-        EXPECT_EQ(number_of(module, "passed", {{fine}, {fine}}, model), narrow ? 1.0 + fine : 2.0 * fine) << name(model);
+        EXPECT_EQ(number_of(module, "passed", {{fine}, {fine}}, model), narrow ? 1.0 + fine : 2.0 * fine)
+            << name(model);
         EXPECT_EQ(number_of(module, "kept", {{fine}}, model), narrow ? 1.0 : fine) << name(model);
         EXPECT_EQ(number_of(module, "by_out", {{fine}}, model), narrow ? 3.0 : 3.0 * fine) << name(model);
         // A uniform keeps its 32 bits until a mediump operation uses it.
         const Bindings bindings{.variables = {{"u", {{fine}}}}, .samplers = {}};
         EXPECT_EQ(number_of(module, "from_uniform", {}, model, bindings), narrow ? 1.0 : fine) << name(model);
         EXPECT_EQ(number_of(module, "straight_from_uniform", {}, model, bindings), fine) << name(model);
+        const Bindings structure{.variables = {{"held", {{fine}, {fine}}}}, .samplers = {}};
+        EXPECT_EQ(number_of(module, "from_structure", {}, model, structure), fine) << name(model);
+        const std::vector<double> both = result_of(module, "through_structure", {{fine}}, model);
+        EXPECT_EQ(both, (std::vector{narrow ? 1.0 : fine, fine})) << name(model);
         EXPECT_EQ(number_of(module, "compared", {{1.0}}, model, bindings), narrow ? 1.0 : 0.0) << name(model);
     }
 }
 
 TEST(MixedPrecision, TheFiveModelsDisagreeWhereTheyShould) {
-    const Module module = module_of("mediump float f(mediump float x) { return (x * x) * 0.001; }\n"
-                                    "mediump float g(mediump float x) { return (x * 0.03125) * 1024.0; }\n"
-                                    "mediump float zero(mediump float x) { return pow(x, 0.0); }\n");
+    const Module module = module_of(
+        "mediump float f(mediump float x) { return (x * x) * 0.001; }\n"
+        "mediump float g(mediump float x) { return (x * 0.03125) * 1024.0; }\n"
+        "mediump float zero(mediump float x) { return pow(x, 0.0); }\n");
     const auto all = [&](const char* function, double x) {
         std::vector<double> values;
         for (const Model model : kModels) values.push_back(number_of(module, function, {{x}}, model));

@@ -145,8 +145,7 @@ TEST(StandardFunctions, Geometry) {
         result_of(module, "bend", {{std::sin(angle), -std::cos(angle)}, {0, 1}, {1.0 / 1.5}});
     expect_near(bent[0], std::sin(angle) / 1.5, "refract");
     expect_near(std::hypot(bent[0], bent[1]), 1.0, "refract");
-    EXPECT_EQ(result_of(module, "bend", {{std::sin(angle), -std::cos(angle)}, {0, 1}, {2.0}}),
-              (std::vector{0.0, 0.0}));
+    EXPECT_EQ(result_of(module, "bend", {{std::sin(angle), -std::cos(angle)}, {0, 1}, {2.0}}), (std::vector{0.0, 0.0}));
 }
 
 TEST(StandardFunctions, Matrices) {

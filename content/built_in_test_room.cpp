@@ -102,8 +102,10 @@ void add_opening_wall(Scene& scene, int plaster) {
 }
 
 void add_walls(Scene& scene, int plaster) {
-    const int long_wall = add_mesh(scene, quad({2.0f * (kHalfWidth + kOverlap), kHeight}, glm::vec2(1.0f), kWallCell), "long wall");
-    const int short_wall = add_mesh(scene, quad({2.0f * (kHalfDepth + kOverlap), kHeight}, glm::vec2(1.0f), kWallCell), "short wall");
+    const int long_wall =
+        add_mesh(scene, quad({2.0f * (kHalfWidth + kOverlap), kHeight}, glm::vec2(1.0f), kWallCell), "long wall");
+    const int short_wall =
+        add_mesh(scene, quad({2.0f * (kHalfDepth + kOverlap), kHeight}, glm::vec2(1.0f), kWallCell), "short wall");
     const float y = 0.5f * kHeight;
     add_surface(scene, "back wall", long_wall, plaster, at({0.0f, y, -kHalfDepth}));
     add_surface(scene, "front wall", long_wall, plaster, at({0.0f, y, kHalfDepth}, glm::pi<float>()));

@@ -37,8 +37,7 @@ public:
 
 /// Stops with `sentence` (put the values in it) and the place when `holds` is false.
 /// The sentence is only built by the caller when needed: use the lambda form inside loops.
-inline void expect(bool holds, const char* sentence,
-                   std::source_location place = std::source_location::current()) {
+inline void expect(bool holds, const char* sentence, std::source_location place = std::source_location::current()) {
     if (!holds) {
         throw Mistake(std::string(sentence) + " (" + place.file_name() + ":" + std::to_string(place.line()) + ")");
     }
@@ -46,9 +45,8 @@ inline void expect(bool holds, const char* sentence,
 
 /// As above; `describe()` returns the sentence and runs only on failure.
 template <typename Describe>
-    requires requires(Describe describe) { std::string(describe()); }
-inline void expect(bool holds, Describe&& describe,
-                   std::source_location place = std::source_location::current()) {
+requires requires(Describe describe) { std::string(describe()); }
+inline void expect(bool holds, Describe&& describe, std::source_location place = std::source_location::current()) {
     if (!holds) {
         throw Mistake(std::string(describe()) + " (" + place.file_name() + ":" + std::to_string(place.line()) + ")");
     }

@@ -9,8 +9,8 @@ namespace halfframe {
 
 /// One row. A row belongs to an effect by name; several effects may share one.
 struct BudgetRow {
-    std::string name;                    ///< the effect's name, or a group's
-    std::optional<double> published_ms;  ///< from a public source; the lower end of a range
+    std::string name;                         ///< the effect's name, or a group's
+    std::optional<double> published_ms;       ///< from a public source; the lower end of a range
     std::optional<double> published_high_ms;  ///< upper end, when the source gives a range
     std::optional<double> ours_ms;            ///< our own allowance, never shown as published
     std::string platforms;                    ///< "PS3", "PS3 and X360"

@@ -18,7 +18,8 @@ glm::dmat4 precise_eye_from_local(const View& view, const glm::mat4& world_from_
 std::array<glm::vec4, 8> clip_corners(const Box& box, const glm::mat4& clip_from_local_matrix) {
     std::array<glm::vec4, 8> corners;
     for (unsigned i = 0; i < 8; ++i) {
-        const glm::vec3 corner{i & 1u ? box.high.x : box.low.x, i & 2u ? box.high.y : box.low.y, i & 4u ? box.high.z : box.low.z};
+        const glm::vec3 corner{i & 1u ? box.high.x : box.low.x, i & 2u ? box.high.y : box.low.y,
+                               i & 4u ? box.high.z : box.low.z};
         corners[i] = clip_from_local_matrix * glm::vec4(corner, 1.0f);
     }
     return corners;
@@ -46,7 +47,8 @@ bool outside_view(const Box& local, const glm::mat4& clip_from_local_matrix) {
     if (local.empty()) return true;
     const auto corners = clip_corners(local, clip_from_local_matrix);
     for (int axis = 0; axis < 3; ++axis) {
-        if (std::ranges::all_of(corners, [&](const glm::vec4& corner) { return corner[axis] < -corner.w; })) return true;
+        if (std::ranges::all_of(corners, [&](const glm::vec4& corner) { return corner[axis] < -corner.w; }))
+            return true;
         if (std::ranges::all_of(corners, [&](const glm::vec4& corner) { return corner[axis] > corner.w; })) return true;
     }
     return false;

@@ -23,7 +23,7 @@ struct PlanContext {
     const Scene& scene;
     const View& view;
     const gl::Caps& caps;
-    Tier tier;              ///< of this effect
+    Tier tier;  ///< of this effect
     Arithmetic arithmetic;
     gl::PixelFormat storage;  ///< of scene_color
 };

@@ -15,7 +15,8 @@ namespace {
 
 using gl::PixelFormat;
 
-constexpr std::array kLadder = {PixelFormat::rgba16f, PixelFormat::r11g11b10f, PixelFormat::rgb10_a2, PixelFormat::rgba8};
+constexpr std::array kLadder = {PixelFormat::rgba16f, PixelFormat::r11g11b10f, PixelFormat::rgb10_a2,
+                                PixelFormat::rgba8};
 
 bool renders(const gl::Caps& caps, PixelFormat format) { return caps.renders[static_cast<std::size_t>(format)]; }
 
@@ -23,11 +24,12 @@ bool renders(const gl::Caps& caps, PixelFormat format) { return caps.renders[sta
 std::optional<std::string> tier_obstacle(Tier tier, const gl::Caps& caps) {
     if (tier == Tier::low) return std::nullopt;
     if (caps.es_version < 30) {
-        return fmt::format("tier {} needs OpenGL ES 3.0 and {} is ES {}.{}", name(tier), caps.device, caps.es_version / 10,
-                           caps.es_version % 10);
+        return fmt::format("tier {} needs OpenGL ES 3.0 and {} is ES {}.{}", name(tier), caps.device,
+                           caps.es_version / 10, caps.es_version % 10);
     }
     if (tier == Tier::reference && !renders(caps, PixelFormat::rgba32f) && !renders(caps, PixelFormat::rgba16f)) {
-        return fmt::format("tier reference needs a float target (EXT_color_buffer_float) and {} renders none", caps.device);
+        return fmt::format("tier reference needs a float target (EXT_color_buffer_float) and {} renders none",
+                           caps.device);
     }
     return std::nullopt;
 }
@@ -44,7 +46,8 @@ Arithmetic chosen_arithmetic(const Wishes& wishes, const gl::Caps& caps) {
     if (!wishes.arithmetic) return caps.software && caps.fragment_highp ? Arithmetic::full : Arithmetic::half;
     if (*wishes.arithmetic == Arithmetic::full && !caps.fragment_highp) {
         throw Error(Fault::usage, fmt::format("full arithmetic needs highp in fragment shaders and {} has none; "
-                                              "use --arithmetic half", caps.device));
+                                              "use --arithmetic half",
+                                              caps.device));
     }
     return *wishes.arithmetic;
 }
@@ -52,8 +55,10 @@ Arithmetic chosen_arithmetic(const Wishes& wishes, const gl::Caps& caps) {
 PixelFormat chosen_storage(const Wishes& wishes, Tier tier, const gl::Caps& caps, std::vector<std::string>& notices) {
     if (wishes.storage) {
         if (!renders(caps, *wishes.storage)) {
-            throw Error(Fault::usage, fmt::format("storage {} does not render on {}; leave --storage out to get the best "
-                                                  "that does", name(*wishes.storage), caps.device));
+            throw Error(Fault::usage,
+                        fmt::format("storage {} does not render on {}; leave --storage out to get the best "
+                                    "that does",
+                                    name(*wishes.storage), caps.device));
         }
         return *wishes.storage;
     }
@@ -137,14 +142,15 @@ void set_start_actions(FramePlan& plan, const glm::vec4& background) {
 
 /// Asks one card, and lets it add what it adds.
 void decide(const EffectCard& card, const PlanContext& context, const Wishes& wishes, FramePlan& plan) {
-    EffectDecision decision{.effect = std::string(card.name), .in = false, .tier = context.tier, .why = {}, .insertions = {}};
+    EffectDecision decision{
+        .effect = std::string(card.name), .in = false, .tier = context.tier, .why = {}, .insertions = {}};
     const Demand demand = card.called_for(context);
     decision.in = demand.called_for;
     decision.why = demand.why;
     if (const auto on = switch_for(card.name, wishes); on && *on != demand.called_for) {
         decision.in = *on;
-        decision.why = fmt::format("switched {} by hand; by itself {}: {}", *on ? "on" : "off", demand.called_for ? "in" : "out",
-                                   demand.why);
+        decision.why = fmt::format("switched {} by hand; by itself {}: {}", *on ? "on" : "off",
+                                   demand.called_for ? "in" : "out", demand.why);
     }
     if (decision.in) {
         if (card.add_passes) card.add_passes(context, plan);
@@ -212,9 +218,11 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Wishes& wishes,
     plan.storage = chosen_storage(wishes, plan.tier, caps, plan.notices);
     plan.census = wishes.census;
     if (!wishes.storage && !wishes.census) plan.bytes_per_pixel_limit = bytes_per_pixel_limit(plan.tier);
-    plan.depth_format = renders(caps, PixelFormat::depth24) && plan.tier != Tier::low ? PixelFormat::depth24 : PixelFormat::depth16;
+    plan.depth_format =
+        renders(caps, PixelFormat::depth24) && plan.tier != Tier::low ? PixelFormat::depth24 : PixelFormat::depth16;
     if (wishes.census && !renders(caps, PixelFormat::rgba32f)) {
-        throw Error(Fault::usage, fmt::format("the census needs RGBA32F targets and {} does not render them", caps.device));
+        throw Error(Fault::usage,
+                    fmt::format("the census needs RGBA32F targets and {} does not render them", caps.device));
     }
     for (const EffectCard* card : cards) {
         const Tier tier = tier_for(card->name, plan.tier, wishes, caps);
@@ -223,8 +231,9 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Wishes& wishes,
     std::ranges::stable_sort(plan.passes, {}, &Pass::order);
     const glm::vec4 background = background_in(scene.background, plan.storage);
     if (plan.display < 0 && !plan.passes.empty()) {
-        throw Error(Fault::usage, fmt::format("no effect brings {} to the display; leave tone_map on, or use --storage rgba8",
-                                              name(plan.storage)));
+        throw Error(Fault::usage,
+                    fmt::format("no effect brings {} to the display; leave tone_map on, or use --storage rgba8",
+                                name(plan.storage)));
     }
     if (plan.display < 0) {
         // Nothing that draws was called for: the picture is the background.
@@ -239,8 +248,9 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Wishes& wishes,
     }
     set_start_actions(plan, background);
     if (wishes.storage && plan.bytes_per_pixel() > bytes_per_pixel_limit(plan.tier)) {
-        plan.notices.push_back(fmt::format("the targets take {:.1f} bytes a pixel, over the {:.1f} of tier {}: {} was asked for by name",
-                                           plan.bytes_per_pixel(), bytes_per_pixel_limit(plan.tier), name(plan.tier), name(plan.storage)));
+        plan.notices.push_back(
+            fmt::format("the targets take {:.1f} bytes a pixel, over the {:.1f} of tier {}: {} was asked for by name",
+                        plan.bytes_per_pixel(), bytes_per_pixel_limit(plan.tier), name(plan.tier), name(plan.storage)));
     }
     return plan;
 }
@@ -257,7 +267,8 @@ std::optional<std::string> broken_pass_rule(const FramePlan& plan, const Pass& p
             return fmt::format("pass {} samples {} while it is bound as its own target", pass.name, target);
         }
     }
-    for (const auto& [target, start] : {std::pair{pass.color, pass.start_color}, std::pair{pass.depth, pass.start_depth}}) {
+    for (const auto& [target, start] :
+         {std::pair{pass.color, pass.start_color}, std::pair{pass.depth, pass.start_depth}}) {
         if (!target) continue;
         if (!written[static_cast<std::size_t>(*target)] && start == StartAction::keep) {
             return fmt::format("pass {} keeps what is in {} and nothing has been written there", pass.name,
@@ -274,7 +285,8 @@ std::optional<std::string> broken_rule(const FramePlan& plan, const gl::Caps& ca
     for (const Target& target : plan.targets) {
         if (target.width < 1 || target.height < 1) return fmt::format("target {} has no pixels", target.name);
         if (!renders(caps, target.format)) {
-            return fmt::format("target {} is {}, which {} does not render", target.name, name(target.format), caps.device);
+            return fmt::format("target {} is {}, which {} does not render", target.name, name(target.format),
+                               caps.device);
         }
         const int limit = gl::is_depth(target.format) ? caps.max_renderbuffer_size : caps.max_texture_size;
         if (target.width > limit || target.height > limit) {
@@ -286,7 +298,8 @@ std::optional<std::string> broken_rule(const FramePlan& plan, const gl::Caps& ca
     for (const Pass& pass : plan.passes) {
         if (auto broken = broken_pass_rule(plan, pass, written)) return broken;
     }
-    if (plan.display < 0 || !written[static_cast<std::size_t>(plan.display)]) return "no pass writes the display target";
+    if (plan.display < 0 || !written[static_cast<std::size_t>(plan.display)])
+        return "no pass writes the display target";
     if (plan.bytes_per_pixel_limit && plan.bytes_per_pixel() > *plan.bytes_per_pixel_limit) {
         return fmt::format("the targets take {:.1f} bytes a pixel and tier {} allows {:.1f}", plan.bytes_per_pixel(),
                            name(plan.tier), *plan.bytes_per_pixel_limit);

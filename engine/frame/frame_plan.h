@@ -16,12 +16,12 @@ namespace halfframe {
 
 /// What the user wishes; empty optionals let the plan choose the best the device can do.
 struct Wishes {
-    std::optional<Tier> tier;                                  ///< empty: console where it runs, else low
-    std::vector<std::pair<std::string, Tier>> effect_tiers;    ///< --tier EFFECT=T
-    std::vector<std::pair<std::string, bool>> effect_switches; ///< --set EFFECT.on=0|1: overrules the demand predicate
-    std::optional<Arithmetic> arithmetic;                      ///< empty: automatic
-    std::optional<gl::PixelFormat> storage;                    ///< empty: highest of the ladder that renders
-    bool census = false;                                       ///< every colour target RGBA32F, to count NaN and inf
+    std::optional<Tier> tier;                                   ///< empty: console where it runs, else low
+    std::vector<std::pair<std::string, Tier>> effect_tiers;     ///< --tier EFFECT=T
+    std::vector<std::pair<std::string, bool>> effect_switches;  ///< --set EFFECT.on=0|1: overrules the demand predicate
+    std::optional<Arithmetic> arithmetic;                       ///< empty: automatic
+    std::optional<gl::PixelFormat> storage;                     ///< empty: highest of the ladder that renders
+    bool census = false;                                        ///< every colour target RGBA32F, to count NaN and inf
 };
 
 /// A texture that passes write and read.
@@ -46,9 +46,9 @@ struct Pass {
     std::string effect;  ///< the card that draws it
     int phase = 0;       ///< told to the effect: which of its passes
     PassOrder order = PassOrder::opaque;
-    std::vector<int> reads;            ///< targets sampled
-    std::optional<int> color;          ///< target written
-    std::optional<int> depth;          ///< depth target bound
+    std::vector<int> reads;    ///< targets sampled
+    std::optional<int> color;  ///< target written
+    std::optional<int> depth;  ///< depth target bound
     bool writes_depth = false;
     StartAction start_color = StartAction::keep;
     StartAction start_depth = StartAction::keep;
@@ -60,7 +60,7 @@ struct EffectDecision {
     std::string effect;
     bool in = false;
     Tier tier = Tier::console;
-    std::string why;  ///< one sentence, for in as for out
+    std::string why;                        ///< one sentence, for in as for out
     std::vector<gl::Insertion> insertions;  ///< code it adds to other effects' shaders; mostly empty
 };
 

@@ -15,13 +15,15 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kHeavySize = 384;            // pixels a side: about 40 ms on two llvmpipe threads, under 1 ms on a phone
-constexpr double kBelieved = 0.8;          // of the wall time of the same draw, in the worst of three: less is something else
+constexpr int kHeavySize = 384;    // pixels a side: about 40 ms on two llvmpipe threads, under 1 ms on a phone
+constexpr double kBelieved = 0.8;  // of the wall time of the same draw, in the worst of three: less is something else
 constexpr GLuint64 kFenceWaitNs = 2'000'000'000;
-constexpr GLenum kTimeElapsed = 0x88BF;    // GL_TIME_ELAPSED, EXT_disjoint_timer_query
-constexpr GLenum kQueryResult = 0x8866;    // GL_QUERY_RESULT
+constexpr GLenum kTimeElapsed = 0x88BF;  // GL_TIME_ELAPSED, EXT_disjoint_timer_query
+constexpr GLenum kQueryResult = 0x8866;  // GL_QUERY_RESULT
 
-double ms_since(Clock::time_point start) { return std::chrono::duration<double, std::milli>(Clock::now() - start).count(); }
+double ms_since(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
 
 void wait_for_fence(gl::EntryPoints& gl) {
     GLsync fence = gl.FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
@@ -170,17 +172,19 @@ TimingCalibration calibrate_timing(gl::EntryPoints& gl, const gl::Caps& caps) {
     seen.wall_ms = caps.timer_query ? query_seen.wall_ms : fence_seen.wall_ms;
     if (query_seen.share() >= kBelieved) {
         seen.method = TimingMethod::timer_query;
-        seen.sentence = fmt::format("timer queries see {:.1f} of {:.1f} ms of a heavy draw: passes are timed with timer queries",
-                                    query_seen.method_ms, query_seen.wall_ms);
+        seen.sentence =
+            fmt::format("timer queries see {:.1f} of {:.1f} ms of a heavy draw: passes are timed with timer queries",
+                        query_seen.method_ms, query_seen.wall_ms);
         return seen;
     }
-    const std::string query_part = caps.timer_query ? fmt::format("timer queries see only {:.1f} of {:.1f} ms of a heavy draw",
-                                                                  query_seen.method_ms, query_seen.wall_ms)
-                                                    : std::string("there are no timer queries");
+    const std::string query_part = caps.timer_query
+                                       ? fmt::format("timer queries see only {:.1f} of {:.1f} ms of a heavy draw",
+                                                     query_seen.method_ms, query_seen.wall_ms)
+                                       : std::string("there are no timer queries");
     if (fence_seen.share() >= kBelieved) {
         seen.method = TimingMethod::fence;
-        seen.sentence = fmt::format("{}, a fence {:.1f} of {:.1f} ms: each pass is timed to a fence", query_part, fence_seen.method_ms,
-                                    fence_seen.wall_ms);
+        seen.sentence = fmt::format("{}, a fence {:.1f} of {:.1f} ms: each pass is timed to a fence", query_part,
+                                    fence_seen.method_ms, fence_seen.wall_ms);
     } else {
         seen.method = TimingMethod::finish;
         seen.sentence = fmt::format("{} and no fence can be believed: each pass is timed to glFinish", query_part);
@@ -188,7 +192,8 @@ TimingCalibration calibrate_timing(gl::EntryPoints& gl, const gl::Caps& caps) {
     return seen;
 }
 
-PassTimer::PassTimer(gl::EntryPoints& gl, TimingMethod method, int pass_count, int frame_count) : gl_(gl), method_(method) {
+PassTimer::PassTimer(gl::EntryPoints& gl, TimingMethod method, int pass_count, int frame_count)
+    : gl_(gl), method_(method) {
     samples_.resize(static_cast<std::size_t>(pass_count));
     for (auto& samples : samples_) samples.reserve(static_cast<std::size_t>(frame_count));
     frames_.reserve(static_cast<std::size_t>(frame_count));
@@ -203,7 +208,8 @@ void PassTimer::begin_frame() {
 }
 
 void PassTimer::begin_pass(int pass) {
-    if (method_ == TimingMethod::timer_query) gl_.BeginQuery(kTimeElapsed, queries_[static_cast<std::size_t>(pass)].name());
+    if (method_ == TimingMethod::timer_query)
+        gl_.BeginQuery(kTimeElapsed, queries_[static_cast<std::size_t>(pass)].name());
     pass_start_ = Clock::now();
 }
 

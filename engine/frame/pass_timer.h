@@ -21,7 +21,7 @@ struct TimingCalibration {
     double wall_ms = 0.0;          ///< the heavy draw between two glFinish
     double timer_query_ms = -1.0;  ///< -1: not available
     double fence_ms = -1.0;
-    std::string sentence;          ///< "timer queries see 0.05 of 13.1 ms, so passes are timed with a fence"
+    std::string sentence;  ///< "timer queries see 0.05 of 13.1 ms, so passes are timed with a fence"
 };
 
 /// Draws the heavy draw and decides. A method is believed when it sees at least 80 % of the wall time of the same

@@ -29,11 +29,11 @@ const char* error_name(std::uint32_t error) {
     }
 }
 
-/// Everything a pass relies on and never sets: a host that draws between our frames may have left it otherwise. State of
-/// ES 3.0 is touched only where the device has it; under an ES 2.0 mask the host has no business with it either.
+/// Everything a pass relies on and never sets: a host that draws between our frames may have left it otherwise. State
+/// of ES 3.0 is touched only where the device has it; under an ES 2.0 mask the host has no business with it either.
 void set_known_state(gl::EntryPoints& gl, const gl::Caps& caps) {
-    for (const GLenum capability : {GL_SCISSOR_TEST, GL_STENCIL_TEST, GL_POLYGON_OFFSET_FILL, GL_SAMPLE_ALPHA_TO_COVERAGE,
-                                    GL_SAMPLE_COVERAGE}) {
+    for (const GLenum capability :
+         {GL_SCISSOR_TEST, GL_STENCIL_TEST, GL_POLYGON_OFFSET_FILL, GL_SAMPLE_ALPHA_TO_COVERAGE, GL_SAMPLE_COVERAGE}) {
         gl.Disable(capability);
     }
     gl.CullFace(GL_BACK);
@@ -59,7 +59,9 @@ void set_known_transfer_state(gl::EntryPoints& gl, const gl::Caps& caps) {
     }
 }
 
-void set_capability(gl::EntryPoints& gl, std::uint32_t capability, bool on) { on ? gl.Enable(capability) : gl.Disable(capability); }
+void set_capability(gl::EntryPoints& gl, std::uint32_t capability, bool on) {
+    on ? gl.Enable(capability) : gl.Disable(capability);
+}
 
 }  // namespace
 
@@ -115,10 +117,11 @@ gl::Texture make_color_target(gl::EntryPoints& gl, const gl::Caps& caps, const T
     gl.ActiveTexture(GL_TEXTURE0);
     gl.BindTexture(GL_TEXTURE_2D, texture.name());
     const auto format = gl::transfer_format(target.format, !caps.sized_formats);
-    gl.TexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(format.internal_format), target.width, target.height, 0, format.format,
-                  format.type, nullptr);
-    for (const auto& [parameter, value] : {std::pair{GL_TEXTURE_MIN_FILTER, GL_NEAREST}, std::pair{GL_TEXTURE_MAG_FILTER, GL_NEAREST},
-                                           std::pair{GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE}, std::pair{GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE}}) {
+    gl.TexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(format.internal_format), target.width, target.height, 0,
+                  format.format, format.type, nullptr);
+    for (const auto& [parameter, value] :
+         {std::pair{GL_TEXTURE_MIN_FILTER, GL_NEAREST}, std::pair{GL_TEXTURE_MAG_FILTER, GL_NEAREST},
+          std::pair{GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE}, std::pair{GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE}}) {
         gl.TexParameteri(GL_TEXTURE_2D, static_cast<GLenum>(parameter), value);
     }
     gl::label(gl, texture, target.name.c_str());
@@ -134,16 +137,20 @@ gl::Renderbuffer make_depth_target(gl::EntryPoints& gl, const Target& target) {
     return renderbuffer;
 }
 
-[[noreturn]] void refuse_target(const std::string& names, const FramePlan& plan, const gl::Caps& caps, const std::string& reason) {
-    throw Error(Fault::context,
-                fmt::format("the target {} of {}x{} pixels cannot be allocated on {} ({}); use a smaller --size or another --storage",
-                            names, plan.width, plan.height, caps.renderer, reason));
+[[noreturn]] void refuse_target(const std::string& names, const FramePlan& plan, const gl::Caps& caps,
+                                const std::string& reason) {
+    throw Error(
+        Fault::context,
+        fmt::format(
+            "the target {} of {}x{} pixels cannot be allocated on {} ({}); use a smaller --size or another --storage",
+            names, plan.width, plan.height, caps.renderer, reason));
 }
 
 }  // namespace
 
 void Renderer::prepare(const Scene& scene, const FramePlan& plan) {
-    if (const auto broken = broken_rule(plan, caps_)) throw Mistake("the plan of " + plan.scene + " breaks a rule: " + *broken);
+    if (const auto broken = broken_rule(plan, caps_))
+        throw Mistake("the plan of " + plan.scene + " breaks a rule: " + *broken);
     works_.clear();
     work_of_pass_.clear();
     targets_ = std::make_unique<Targets>();
@@ -164,8 +171,9 @@ void Renderer::prepare(const Scene& scene, const FramePlan& plan) {
     for (const Mesh& mesh : scene.meshes) meshes_.push_back(upload_mesh(gl_, caps_, mesh));
     make_works();
     if (const std::uint32_t error = gl_.GetError(); error != GL_NO_ERROR) {
-        throw Error(Fault::context, fmt::format("preparing {} left {} on {}; the scene may be too large for this device", plan.scene,
-                                                error_name(error), caps_.renderer));
+        throw Error(Fault::context,
+                    fmt::format("preparing {} left {} on {}; the scene may be too large for this device", plan.scene,
+                                error_name(error), caps_.renderer));
     }
     gl_.BindBuffer(GL_ARRAY_BUFFER, 0);
     *state_ = {};
@@ -176,11 +184,13 @@ void Renderer::allocate_targets() {
         const bool depth = gl::is_depth(target.format);
         targets_->textures.push_back(depth ? gl::Texture{} : make_color_target(gl_, caps_, target));
         targets_->renderbuffers.push_back(depth ? make_depth_target(gl_, target) : gl::Renderbuffer{});
-        if (const std::uint32_t error = gl_.GetError(); error != GL_NO_ERROR) refuse_target(target.name, plan_, caps_, error_name(error));
+        if (const std::uint32_t error = gl_.GetError(); error != GL_NO_ERROR)
+            refuse_target(target.name, plan_, caps_, error_name(error));
     }
     for (const Pass& pass : plan_.passes) {
         auto& all = targets_->framebuffers;
-        auto found = std::ranges::find_if(all, [&](const auto& made) { return made.color == pass.color && made.depth == pass.depth; });
+        auto found = std::ranges::find_if(
+            all, [&](const auto& made) { return made.color == pass.color && made.depth == pass.depth; });
         if (found == all.end()) {
             all.push_back({pass.color, pass.depth, gl::create<gl::Kind::framebuffer>(gl_)});
             found = all.end() - 1;
@@ -232,7 +242,8 @@ void Renderer::make_works() {
         EffectWork* work = nullptr;  // the clear pass of an empty scene has nobody
         if (!pass.effect.empty()) {
             const auto card = std::ranges::find(description_.effects, std::string_view(pass.effect), &EffectCard::name);
-            expect(card != description_.effects.end(), [&] { return "the plan has a pass of " + pass.effect + ", which is not in the list"; });
+            expect(card != description_.effects.end(),
+                   [&] { return "the plan has a pass of " + pass.effect + ", which is not in the list"; });
             works_.push_back((*card)->prepare(*this));
             work = works_.back().get();
         }
@@ -269,9 +280,12 @@ void Renderer::begin(const Pass& pass, std::uint32_t framebuffer) {
     // A tiler that knows a target starts empty never loads it from memory.
     std::array<GLenum, 2> discarded{};
     int discard_count = 0;
-    if (pass.color && pass.start_color == StartAction::discard) discarded[static_cast<std::size_t>(discard_count++)] = GL_COLOR_ATTACHMENT0;
-    if (pass.depth && pass.start_depth == StartAction::discard) discarded[static_cast<std::size_t>(discard_count++)] = GL_DEPTH_ATTACHMENT;
-    if (discard_count > 0 && caps_.discard_framebuffer) gl_.InvalidateFramebuffer(GL_FRAMEBUFFER, discard_count, discarded.data());
+    if (pass.color && pass.start_color == StartAction::discard)
+        discarded[static_cast<std::size_t>(discard_count++)] = GL_COLOR_ATTACHMENT0;
+    if (pass.depth && pass.start_depth == StartAction::discard)
+        discarded[static_cast<std::size_t>(discard_count++)] = GL_DEPTH_ATTACHMENT;
+    if (discard_count > 0 && caps_.discard_framebuffer)
+        gl_.InvalidateFramebuffer(GL_FRAMEBUFFER, discard_count, discarded.data());
     GLbitfield clear = 0;
     if (pass.color && pass.start_color == StartAction::clear) {
         set_color_mask(true);
@@ -290,8 +304,10 @@ void Renderer::finish_frame() {
     if (targets_->loose_array) gl_.BindVertexArray(targets_->loose_array.name());
     const std::uint32_t error = gl_.GetError();
     if (error == kContextLost) {
-        throw Error(Fault::context, fmt::format("the graphics context was lost while drawing {} on {}; make a new context and a new renderer",
-                                                plan_.scene, caps_.renderer));
+        throw Error(
+            Fault::context,
+            fmt::format("the graphics context was lost while drawing {} on {}; make a new context and a new renderer",
+                        plan_.scene, caps_.renderer));
     }
     if (error != GL_NO_ERROR && first_error_ == GL_NO_ERROR) first_error_ = error;
 }
@@ -309,7 +325,8 @@ Picture Renderer::read_display() {
         const FloatPicture floats = read_target(plan_.display);
         picture.rgba.reserve(floats.rgba.size());
         for (const float value : floats.rgba) {
-            picture.rgba.push_back(static_cast<std::uint8_t>(std::lround((value > 0.0f ? std::min(value, 1.0f) : 0.0f) * 255.0f)));
+            picture.rgba.push_back(
+                static_cast<std::uint8_t>(std::lround((value > 0.0f ? std::min(value, 1.0f) : 0.0f) * 255.0f)));
         }
         return picture;
     }
@@ -320,8 +337,9 @@ Picture Renderer::read_display() {
     gl_.ReadPixels(0, 0, plan_.width, plan_.height, GL_RGBA, GL_UNSIGNED_BYTE, bottom_up.data());
     picture.rgba.resize(bottom_up.size());
     for (std::size_t y = 0; y < static_cast<std::size_t>(plan_.height); ++y) {
-        std::copy_n(bottom_up.begin() + static_cast<std::ptrdiff_t>((static_cast<std::size_t>(plan_.height) - 1 - y) * row), row,
-                    picture.rgba.begin() + static_cast<std::ptrdiff_t>(y * row));
+        std::copy_n(
+            bottom_up.begin() + static_cast<std::ptrdiff_t>((static_cast<std::size_t>(plan_.height) - 1 - y) * row),
+            row, picture.rgba.begin() + static_cast<std::ptrdiff_t>(y * row));
     }
     return picture;
 }
@@ -339,12 +357,14 @@ FloatPicture Renderer::read_target(int target_index) {
     if (target.format == gl::PixelFormat::rgba8) {
         std::vector<std::uint8_t> bytes(count);
         gl_.ReadPixels(0, 0, target.width, target.height, GL_RGBA, GL_UNSIGNED_BYTE, bytes.data());
-        std::ranges::transform(bytes, bottom_up.begin(), [](std::uint8_t byte) { return static_cast<float>(byte) / 255.0f; });
+        std::ranges::transform(bytes, bottom_up.begin(),
+                               [](std::uint8_t byte) { return static_cast<float>(byte) / 255.0f; });
     } else if (normalised) {
         std::vector<std::uint32_t> words(count / 4);
         gl_.ReadPixels(0, 0, target.width, target.height, GL_RGBA, GL_UNSIGNED_INT_2_10_10_10_REV, words.data());
         for (std::size_t i = 0; i < words.size(); ++i) {
-            for (std::size_t c = 0; c < 3; ++c) bottom_up[i * 4 + c] = static_cast<float>((words[i] >> (10 * c)) & 1023u) / 1023.0f;
+            for (std::size_t c = 0; c < 3; ++c)
+                bottom_up[i * 4 + c] = static_cast<float>((words[i] >> (10 * c)) & 1023u) / 1023.0f;
             bottom_up[i * 4 + 3] = static_cast<float>(words[i] >> 30) / 3.0f;
         }
     } else {
@@ -352,8 +372,9 @@ FloatPicture Renderer::read_target(int target_index) {
     }
     picture.rgba.resize(count);
     for (std::size_t y = 0; y < static_cast<std::size_t>(target.height); ++y) {
-        std::copy_n(bottom_up.begin() + static_cast<std::ptrdiff_t>((static_cast<std::size_t>(target.height) - 1 - y) * row), row,
-                    picture.rgba.begin() + static_cast<std::ptrdiff_t>(y * row));
+        std::copy_n(
+            bottom_up.begin() + static_cast<std::ptrdiff_t>((static_cast<std::size_t>(target.height) - 1 - y) * row),
+            row, picture.rgba.begin() + static_cast<std::ptrdiff_t>(y * row));
     }
     return picture;
 }
@@ -400,9 +421,10 @@ Tier Renderer::tier_of(std::string_view effect) const {
 gl::Program& Renderer::program(const EffectCard& card, int variant, std::span<const std::string_view> defines) {
     const Tier tier = tier_of(card.name);
     const auto& shaders = card.tiers[static_cast<std::size_t>(tier)].shaders;
-    expect(variant >= 0 && static_cast<std::size_t>(variant) < shaders.size(), "a shader variant the card does not have");
-    gl::ProgramDescription description = describe_variant(card, shaders[static_cast<std::size_t>(variant)], tier, plan_.arithmetic,
-                                                          caps_.fragment_highp, defines);
+    expect(variant >= 0 && static_cast<std::size_t>(variant) < shaders.size(),
+           "a shader variant the card does not have");
+    gl::ProgramDescription description = describe_variant(card, shaders[static_cast<std::size_t>(variant)], tier,
+                                                          plan_.arithmetic, caps_.fragment_highp, defines);
     const std::string prefix = std::string(card.name) + ".";
     for (const EffectDecision& decision : plan_.effects) {
         for (const gl::Insertion& insertion : decision.insertions) {
@@ -436,7 +458,8 @@ void Renderer::draw_full_screen() {
         gl_.BindBuffer(GL_ARRAY_BUFFER, state_->vertex_buffer);
         gl_.VertexAttribPointer(kPosition, 2, GL_FLOAT, GL_FALSE, 0, nullptr);
         gl_.EnableVertexAttribArray(kPosition);
-        for (const int attribute : {kNormal, kTangent, kUv, kColor}) gl_.DisableVertexAttribArray(static_cast<GLuint>(attribute));
+        for (const int attribute : {kNormal, kTangent, kUv, kColor})
+            gl_.DisableVertexAttribArray(static_cast<GLuint>(attribute));
     }
     gl_.DrawArrays(GL_TRIANGLES, 0, 3);
 }

@@ -43,20 +43,20 @@ public:
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;
 
-    /// Uploads the scene, allocates the plan's targets and links the programs its effects need: all that is not a frame.
-    /// Throws Error(context) when a target cannot be allocated, naming it and its size; Error(check) for a shader.
-    /// `scene` must outlive the renderer or the next prepare().
+    /// Uploads the scene, allocates the plan's targets and links the programs its effects need: all that is not a
+    /// frame. Throws Error(context) when a target cannot be allocated, naming it and its size; Error(check) for a
+    /// shader. `scene` must outlive the renderer or the next prepare().
     void prepare(const Scene& scene, const FramePlan& plan);
 
-    /// Draws one frame of the prepared plan. No heap allocation, no GL object, no program link. Whatever state a host left
-    /// behind does not show; our own bindings (framebuffer, program, textures, viewport) are left behind in turn.
+    /// Draws one frame of the prepared plan. No heap allocation, no GL object, no program link. Whatever state a host
+    /// left behind does not show; our own bindings (framebuffer, program, textures, viewport) are left behind in turn.
     /// Throws Error(context) when the context was lost.
     void draw(const View& view);
 
     /// Draws one frame with a timer round every pass; samples() of `timer` then hold one more value for each.
     void draw_timed(const View& view, PassTimer& timer);
 
-    [[nodiscard]] Picture read_display();                    ///< the plan's display target
+    [[nodiscard]] Picture read_display();                      ///< the plan's display target
     [[nodiscard]] FloatPicture read_target(int target_index);  ///< any colour target, as floats
     /// NaN, inf and negatives of every colour target of a plan made with Wishes::census, after a draw().
     [[nodiscard]] std::vector<CensusRow> census();

@@ -81,12 +81,12 @@ enum class LightKind : std::uint8_t { sun, point, spot };
 struct Light {
     LightKind kind = LightKind::point;
     std::string name;
-    glm::vec3 color{1.0f};                    ///< linear, >= 0
-    glm::vec3 position{0.0f};                 ///< [m] point, spot
-    glm::vec3 direction{0.0f, -1.0f, 0.0f};   ///< unit, the way the light travels: sun, spot
-    float range_m = 10.0f;                    ///< falls smoothly to 0 here; point, spot
-    float inner_cone_rad = 0.0f;              ///< spot: full inside this half angle
-    float outer_cone_rad = 0.785398f;         ///< spot: dark outside this half angle
+    glm::vec3 color{1.0f};                   ///< linear, >= 0
+    glm::vec3 position{0.0f};                ///< [m] point, spot
+    glm::vec3 direction{0.0f, -1.0f, 0.0f};  ///< unit, the way the light travels: sun, spot
+    float range_m = 10.0f;                   ///< falls smoothly to 0 here; point, spot
+    float inner_cone_rad = 0.0f;             ///< spot: full inside this half angle
+    float outer_cone_rad = 0.785398f;        ///< spot: dark outside this half angle
 };
 
 struct Camera {
@@ -116,10 +116,10 @@ struct Scene {
     std::vector<Surface> surfaces;
     std::vector<Light> lights;
     std::vector<Camera> cameras;
-    glm::vec3 ambient{0.0f};                  ///< constant radiance from everywhere, linear
-    std::optional<Sky> sky;                   ///< none: the background is `background`
+    glm::vec3 ambient{0.0f};                    ///< constant radiance from everywhere, linear
+    std::optional<Sky> sky;                     ///< none: the background is `background`
     glm::vec3 background{0.12f, 0.13f, 0.15f};  ///< display value behind everything
-    std::vector<std::string> notices;         ///< what the loader left out, one sentence each
+    std::vector<std::string> notices;           ///< what the loader left out, one sentence each
 };
 
 /// Axis-aligned box; empty when low > high.
@@ -157,6 +157,7 @@ struct View {
 /// A camera three quarters from above that has the whole of `box` inside the picture.
 [[nodiscard]] Camera camera_framing(const Box& box, float aspect, float fov_y_rad = 0.6981317f);
 /// eye to target [m], +Y up (or +Z when looking straight up or down).
-[[nodiscard]] Camera camera_looking(const glm::vec3& eye, const glm::vec3& target, float fov_y_rad, const Box& scene_box);
+[[nodiscard]] Camera camera_looking(const glm::vec3& eye, const glm::vec3& target, float fov_y_rad,
+                                    const Box& scene_box);
 
 }  // namespace halfframe

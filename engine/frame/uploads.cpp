@@ -56,7 +56,8 @@ PrimitiveList as_list(Primitive primitive, const std::vector<std::uint32_t>& in)
         case Primitive::line_loop:
             list = {Primitive::lines, 2, {}};
             for (std::size_t i = 0; i + 1 < count; ++i) list.indices.insert(list.indices.end(), {in[i], in[i + 1]});
-            if (primitive == Primitive::line_loop && count > 2) list.indices.insert(list.indices.end(), {in.back(), in.front()});
+            if (primitive == Primitive::line_loop && count > 2)
+                list.indices.insert(list.indices.end(), {in.back(), in.front()});
             return list;
         case Primitive::triangle_strip:
             for (std::size_t i = 0; i + 2 < count; ++i) {
@@ -65,7 +66,8 @@ PrimitiveList as_list(Primitive primitive, const std::vector<std::uint32_t>& in)
             }
             return list;
         case Primitive::triangle_fan:
-            for (std::size_t i = 1; i + 1 < count; ++i) list.indices.insert(list.indices.end(), {in[0], in[i], in[i + 1]});
+            for (std::size_t i = 1; i + 1 < count; ++i)
+                list.indices.insert(list.indices.end(), {in[0], in[i], in[i + 1]});
             return list;
     }
     throw Mistake("a primitive that no list can stand for");
@@ -85,8 +87,8 @@ DrawPart upload_piece(gl::EntryPoints& gl, const gl::Caps& caps, const MeshPiece
     }
     part.vertices = gl::create<gl::Kind::buffer>(gl);
     gl.BindBuffer(GL_ARRAY_BUFFER, part.vertices.name());
-    gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(piece.vertices.size() * sizeof(PackedVertex)), piece.vertices.data(),
-                  GL_STATIC_DRAW);
+    gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(piece.vertices.size() * sizeof(PackedVertex)),
+                  piece.vertices.data(), GL_STATIC_DRAW);
     part.count = static_cast<int>(piece.vertices.size());
     if (!piece.indices.empty()) {
         part.indices = gl::create<gl::Kind::buffer>(gl);
@@ -95,11 +97,12 @@ DrawPart upload_piece(gl::EntryPoints& gl, const gl::Caps& caps, const MeshPiece
         if (piece.vertices.size() <= 65536) {
             const std::vector<std::uint16_t> narrow(piece.indices.begin(), piece.indices.end());
             part.index_type = GL_UNSIGNED_SHORT;
-            gl.BufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(narrow.size() * 2), narrow.data(), GL_STATIC_DRAW);
+            gl.BufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(narrow.size() * 2), narrow.data(),
+                          GL_STATIC_DRAW);
         } else {
             part.index_type = GL_UNSIGNED_INT;
-            gl.BufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(piece.indices.size() * 4), piece.indices.data(),
-                          GL_STATIC_DRAW);
+            gl.BufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(piece.indices.size() * 4),
+                          piece.indices.data(), GL_STATIC_DRAW);
         }
     }
     if (part.array) {
@@ -111,8 +114,11 @@ DrawPart upload_piece(gl::EntryPoints& gl, const gl::Caps& caps, const MeshPiece
 
 /// Half the size in each direction, each pixel the mean of up to four.
 Image halved(const Image& image) {
-    Image half{.name = image.name, .width = std::max(image.width / 2, 1), .height = std::max(image.height / 2, 1),
-               .srgb = image.srgb, .rgba = {}};
+    Image half{.name = image.name,
+               .width = std::max(image.width / 2, 1),
+               .height = std::max(image.height / 2, 1),
+               .srgb = image.srgb,
+               .rgba = {}};
     half.rgba.resize(static_cast<std::size_t>(half.width) * half.height * 4);
     for (int y = 0; y < half.height; ++y) {
         for (int x = 0; x < half.width; ++x) {
@@ -230,24 +236,27 @@ Image fitted(const Image& image, int max_size, bool power_of_two) {
     return out;
 }
 
-std::uint32_t TextureStore::get(const Scene& scene, const Texture& texture, bool decoded, std::vector<std::string>& notices) {
+std::uint32_t TextureStore::get(const Scene& scene, const Texture& texture, bool decoded,
+                                std::vector<std::string>& notices) {
     const auto found = std::ranges::find_if(
         entries_, [&](const Entry& entry) { return entry.texture == texture && entry.decoded == decoded; });
     if (found != entries_.end()) return found->object.name();
 
     const Image& source = scene.images[static_cast<std::size_t>(texture.image)];
-    const bool needs_power_of_two = !caps_.npot_textures && (texture.mipmaps || texture.wrap_u != Wrap::clamp || texture.wrap_v != Wrap::clamp);
+    const bool needs_power_of_two =
+        !caps_.npot_textures && (texture.mipmaps || texture.wrap_u != Wrap::clamp || texture.wrap_v != Wrap::clamp);
     const Image image = fitted(source, caps_.max_texture_size, needs_power_of_two);
     if (image.width != source.width || image.height != source.height) {
-        notices.push_back(fmt::format("texture {} is {}x{} texels and was made {}x{} for {}", source.name, source.width, source.height,
-                                      image.width, image.height, caps_.device));
+        notices.push_back(fmt::format("texture {} is {}x{} texels and was made {}x{} for {}", source.name, source.width,
+                                      source.height, image.width, image.height, caps_.device));
     }
     Entry entry{texture, decoded, gl::create<gl::Kind::texture>(gl_)};
     gl_.ActiveTexture(GL_TEXTURE0);
     gl_.BindTexture(GL_TEXTURE_2D, entry.object.name());
-    const auto format = gl::transfer_format(decoded ? gl::PixelFormat::srgb8_alpha8 : gl::PixelFormat::rgba8, !caps_.sized_formats);
-    gl_.TexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(format.internal_format), image.width, image.height, 0, format.format,
-                   format.type, image.rgba.data());
+    const auto format =
+        gl::transfer_format(decoded ? gl::PixelFormat::srgb8_alpha8 : gl::PixelFormat::rgba8, !caps_.sized_formats);
+    gl_.TexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(format.internal_format), image.width, image.height, 0,
+                   format.format, format.type, image.rgba.data());
     const auto wrap = [](Wrap mode) {
         return mode == Wrap::repeat ? GL_REPEAT : mode == Wrap::clamp ? GL_CLAMP_TO_EDGE : GL_MIRRORED_REPEAT;
     };

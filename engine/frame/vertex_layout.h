@@ -9,11 +9,11 @@ enum VertexAttribute : int { kPosition = 0, kNormal = 1, kTangent = 2, kUv = 3, 
 
 /// 40 bytes. Directions are 16-bit normalised: 0.002 degrees worst error, which no tier can see.
 struct PackedVertex {
-    float position[3];           ///< [m] local
-    std::int16_t normal[4];      ///< snorm, w unused
-    std::int16_t tangent[4];     ///< snorm, w = handedness
+    float position[3];        ///< [m] local
+    std::int16_t normal[4];   ///< snorm, w unused
+    std::int16_t tangent[4];  ///< snorm, w = handedness
     float uv[2];
-    std::uint8_t color[4];       ///< unorm, linear
+    std::uint8_t color[4];  ///< unorm, linear
 };
 static_assert(sizeof(PackedVertex) == 40);
 

@@ -8,8 +8,8 @@
 
 namespace halfframe::gl {
 
-inline constexpr int kMaxPasses = 64;   ///< pass 0 is everything outside a pass ("set-up")
-inline constexpr int kMaxCalls = 160;   ///< at least the number of rows of entry_points.inl
+inline constexpr int kMaxPasses = 64;  ///< pass 0 is everything outside a pass ("set-up")
+inline constexpr int kMaxCalls = 160;  ///< at least the number of rows of entry_points.inl
 
 /// What one pass did to GL.
 struct PassCalls {

@@ -26,8 +26,8 @@ struct Caps {
     std::string version;
     std::string device = "native";  ///< name of the mask in force
 
-    int es_version = 20;   ///< 20, 30, 31, 32: the ES version whose rules we follow here
-    bool desktop = false;  ///< a desktop GL context that runs ES text (OSMesa, GL 4.5)
+    int es_version = 20;        ///< 20, 30, 31, 32: the ES version whose rules we follow here
+    bool desktop = false;       ///< a desktop GL context that runs ES text (OSMesa, GL 4.5)
     bool core_profile = false;  ///< desktop core profile: a vertex array object must be bound
     bool software = false;      ///< a CPU rasteriser (llvmpipe, softpipe, SwiftShader)
     bool fragment_highp = true;
@@ -60,9 +60,9 @@ struct Caps {
     bool npot_textures = false;  ///< full use of non-power-of-two textures: ES 3.0 or OES_texture_npot
     bool program_binary = false;
     bool fence_sync = false;
-    bool timer_query = false;      ///< EXT_disjoint_timer_query, or core on desktop
-    bool samples_passed = false;   ///< exact GL_SAMPLES_PASSED: desktop only
-    bool debug_labels = false;     ///< KHR_debug
+    bool timer_query = false;     ///< EXT_disjoint_timer_query, or core on desktop
+    bool samples_passed = false;  ///< exact GL_SAMPLES_PASSED: desktop only
+    bool debug_labels = false;    ///< KHR_debug
     bool anisotropy = false;
     bool discard_framebuffer = false;  ///< glInvalidateFramebuffer: ES 3.0
 

@@ -27,9 +27,9 @@ using Loader = std::function<void*(const char*)>;
 enum class Since : std::uint8_t {
     es20,
     es30,
-    khr_debug,          ///< KHR_debug: labels and groups
-    timer_query,        ///< EXT_disjoint_timer_query, or desktop GL 3.3
-    desktop_only,       ///< the counting context alone
+    khr_debug,     ///< KHR_debug: labels and groups
+    timer_query,   ///< EXT_disjoint_timer_query, or desktop GL 3.3
+    desktop_only,  ///< the counting context alone
 };
 
 class EntryPoints {

@@ -67,10 +67,10 @@ struct StageText {
 /// Puts a stage together: #version, precision defaults, defines (STAGE_VERTEX or STAGE_FRAGMENT, ARITHMETIC_HALF or
 /// ARITHMETIC_FULL, FRAGMENT_HIGHP, then the description's), dialect/<dialect>.glsl, then the file with its
 /// #include "path" lines resolved (each file once) and each `//@insert point` line replaced by the code of the
-/// insertions that name it, in order. The files of these insertions come, once each, at the line `//@insert_functions`. Pure.
-/// `files` are all there is to include. Throws Error(input) for a missing file; Mistake for an insertion whose point
-/// exists in neither stage, for files that include each other in a circle, and for full arithmetic without fragment
-/// highp.
+/// insertions that name it, in order. The files of these insertions come, once each, at the line `//@insert_functions`.
+/// Pure. `files` are all there is to include. Throws Error(input) for a missing file; Mistake for an insertion whose
+/// point exists in neither stage, for files that include each other in a circle, and for full arithmetic without
+/// fragment highp.
 [[nodiscard]] StageText assemble_stage(const ProgramDescription& description, Stage stage,
                                        std::span<const ShaderFile> files = shader_files());
 
@@ -121,9 +121,9 @@ public:
     Program& get(const ProgramDescription& description);
 
     struct Statistics {
-        int compiled = 0;     ///< programs compiled from text
-        int from_disk = 0;    ///< programs that came back from a binary
-        int shared = 0;       ///< get() calls answered from memory
+        int compiled = 0;      ///< programs compiled from text
+        int from_disk = 0;     ///< programs that came back from a binary
+        int shared = 0;        ///< get() calls answered from memory
         int disk_ignored = 0;  ///< files present but unusable
     };
     [[nodiscard]] const Statistics& statistics() const { return statistics_; }

@@ -29,10 +29,10 @@ enum class Cleaning {
 /// Compiles .glsl files of plain functions into a fragment stage with an empty main, to evaluate the functions alone.
 /// `paths` are relative to shaders_es; each is included in order.
 struct FunctionFiles {
-    std::vector<std::string> paths;
+    std::vector<std::string> paths = {};
     gl::Arithmetic arithmetic = gl::Arithmetic::half;
-    std::vector<gl::Define> defines;
-    std::string more_text;  ///< further functions, behind the files; errors name it "<more text>"
+    std::vector<gl::Define> defines = {};
+    std::string more_text = {};  ///< further functions, behind the files; errors name it "<more text>"
 };
 [[nodiscard]] Module compile(const FunctionFiles& wanted, std::span<const gl::ShaderFile> files = gl::shader_files());
 

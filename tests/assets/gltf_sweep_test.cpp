@@ -1,6 +1,6 @@
 // Draws every glTF file of the asset folders on one ground at every tier it runs: no GL error, the model inside its
-// projected box and nowhere else, never blank. expected.json says of each file whether it draws, draws with a notice, or is
-// refused; a file that does better than its line says fails too, so that the list stays true.
+// projected box and nowhere else, never blank. expected.json says of each file whether it draws, draws with a notice,
+// or is refused; a file that does better than its line says fails too, so that the list stays true.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -39,7 +39,8 @@ std::vector<File> all_files() {
     std::vector<File> files;
     const auto add = [&](const fs::path& root, const std::string& prefix) {
         if (!fs::exists(root)) return;
-        for (const fs::path& path : harness::gltf_files(root)) files.push_back({prefix + fs::relative(path, root).string(), path});
+        for (const fs::path& path : harness::gltf_files(root))
+            files.push_back({prefix + fs::relative(path, root).string(), path});
     };
     if (const auto assets = harness::assets_folder()) {
         add(*assets / "khronos", "khronos/");
@@ -70,7 +71,8 @@ Rectangle projected(const Box& box, const View& view) {
     Rectangle rectangle;
     const glm::mat4 matrix = clip_from_local(view, glm::mat4(1.0f));
     for (unsigned i = 0; i < 8; ++i) {
-        const glm::vec4 clip = matrix * glm::vec4(i & 1u ? box.high.x : box.low.x, i & 2u ? box.high.y : box.low.y, i & 4u ? box.high.z : box.low.z, 1.0f);
+        const glm::vec4 clip = matrix * glm::vec4(i & 1u ? box.high.x : box.low.x, i & 2u ? box.high.y : box.low.y,
+                                                  i & 4u ? box.high.z : box.low.z, 1.0f);
         const float x = (clip.x / clip.w * 0.5f + 0.5f) * kWidth, y = (0.5f - clip.y / clip.w * 0.5f) * kHeight;
         rectangle.left = std::min(rectangle.left, static_cast<int>(std::floor(x)) - 3);  // 3: points are 4 pixels wide
         rectangle.right = std::max(rectangle.right, static_cast<int>(std::ceil(x)) + 3);
@@ -87,7 +89,8 @@ std::pair<int, int> counted(const Picture& picture, const Rectangle& rectangle, 
         for (int x = 0; x < kWidth; ++x) {
             const std::size_t at = (static_cast<std::size_t>(y) * kWidth + static_cast<std::size_t>(x)) * 4;
             int error = 0;
-            for (std::size_t c = 0; c < 3; ++c) error = std::max(error, std::abs(int{picture.rgba[at + c]} - background[c]));
+            for (std::size_t c = 0; c < 3; ++c)
+                error = std::max(error, std::abs(int{picture.rgba[at + c]} - background[c]));
             if (error <= 6) continue;  // 6: R11G11B10F and the inverse tone curve move the background by up to 4 codes
             const bool in = x >= rectangle.left && x <= rectangle.right && y >= rectangle.top && y <= rectangle.bottom;
             ++(in ? inside : outside);
@@ -105,7 +108,8 @@ private:
     std::map<Tier, std::unique_ptr<Renderer>> renderers_;  ///< one a tier, so that programs are shared between files
 };
 
-void Sweep::draw_file(harness::Ground& ground, const Scene& scene, const std::string& key, const std::vector<Tier>& tiers) {
+void Sweep::draw_file(harness::Ground& ground, const Scene& scene, const std::string& key,
+                      const std::vector<Tier>& tiers) {
     const Box box = world_box(scene);
     const View view = view_of(camera_framing(box, static_cast<float>(kWidth) / kHeight), kWidth, kHeight);
     const std::array<int, 3> background = {204, 26, 204};
@@ -143,7 +147,8 @@ void Sweep::draw_all(const harness::GroundWish& wish, const std::vector<Tier>& t
             ++drawn;
         } catch (const Error& error) {
             EXPECT_EQ(error.fault(), Fault::input) << file.key << ": " << error.what();
-            EXPECT_NE(std::string(error.what()).find(file.path.filename().string()), std::string::npos) << "the file is not named: " << error.what();
+            EXPECT_NE(std::string(error.what()).find(file.path.filename().string()), std::string::npos)
+                << "the file is not named: " << error.what();
             outcome = "error";
             words = error.what();
             ++refused;
@@ -154,9 +159,11 @@ void Sweep::draw_all(const harness::GroundWish& wish, const std::vector<Tier>& t
             continue;
         }
         EXPECT_EQ(outcome, line->second.outcome) << file.key << ": " << words;
-        EXPECT_NE(words.find(line->second.says), std::string::npos) << file.key << " says: " << words << "expected: " << line->second.says;
+        EXPECT_NE(words.find(line->second.says), std::string::npos)
+            << file.key << " says: " << words << "expected: " << line->second.says;
     }
-    fmt::print("{} files: {} drawn at {} tiers, {} refused, {} not listed\n", files.size(), drawn, tiers.size(), refused, unlisted);
+    fmt::print("{} files: {} drawn at {} tiers, {} refused, {} not listed\n", files.size(), drawn, tiers.size(),
+               refused, unlisted);
     EXPECT_GT(drawn, 0);
 }
 

@@ -18,12 +18,14 @@ inline Scene wide_square() {
 
 /// Linear colour of the pixel at (x, y) from the left and the top.
 inline glm::vec3 pixel(const FloatPicture& picture, int x, int y) {
-    const std::size_t at = (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) + static_cast<std::size_t>(x)) * 4;
+    const std::size_t at =
+        (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) + static_cast<std::size_t>(x)) * 4;
     return {picture.rgba[at], picture.rgba[at + 1], picture.rgba[at + 2]};
 }
 
 /// scene_color of one frame of `scene` in RGBA32F.
-inline FloatPicture scene_color(harness::Ground& ground, const Scene& scene, const View& view, Tier tier, Arithmetic arithmetic) {
+inline FloatPicture scene_color(harness::Ground& ground, const Scene& scene, const View& view, Tier tier,
+                                Arithmetic arithmetic) {
     const Wishes wishes{.tier = tier, .arithmetic = arithmetic, .storage = gl::PixelFormat::rgba32f};
     const FramePlan frame = plan_frame(scene, view, wishes, ground.caps, all_effects());
     Renderer renderer(ground.gl, ground.caps);

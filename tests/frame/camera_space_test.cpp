@@ -26,17 +26,20 @@ TEST(CameraSpace, KnowsWhatIsOutside) {
     const View view = square_view();
     const Box unit{.low = glm::vec3(-0.5f), .high = glm::vec3(0.5f)};
     EXPECT_FALSE(outside_view(unit, clip_from_local(view, glm::mat4(1.0f))));
-    for (const glm::vec3 far_off : {glm::vec3(50, 0, 0), glm::vec3(-50, 0, 0), glm::vec3(0, 50, 0), glm::vec3(0, 0, 5)}) {
+    for (const glm::vec3 far_off :
+         {glm::vec3(50, 0, 0), glm::vec3(-50, 0, 0), glm::vec3(0, 50, 0), glm::vec3(0, 0, 5)}) {
         glm::mat4 matrix(1.0f);
         matrix[3] = glm::vec4(far_off, 1.0f);
-        EXPECT_TRUE(outside_view(unit, clip_from_local(view, matrix))) << far_off.x << ' ' << far_off.y << ' ' << far_off.z;
+        EXPECT_TRUE(outside_view(unit, clip_from_local(view, matrix)))
+            << far_off.x << ' ' << far_off.y << ' ' << far_off.z;
     }
     EXPECT_TRUE(outside_view(Box{}, clip_from_local(view, glm::mat4(1.0f)))) << "an empty box is nowhere";
 }
 
 TEST(CameraSpace, ScreenFractionHasKnownValues) {
     View view = square_view();
-    view.clip_from_view = glm::mat4(1.0f);  // clip space is view space: a box of side 1 covers a quarter of the 2 x 2 screen
+    view.clip_from_view =
+        glm::mat4(1.0f);  // clip space is view space: a box of side 1 covers a quarter of the 2 x 2 screen
     view.view_from_world = glm::mat4(1.0f);
     view.eye = glm::vec3(0.0f);
     const Box unit{.low = glm::vec3(-0.5f), .high = glm::vec3(0.5f)};

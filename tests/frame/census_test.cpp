@@ -11,7 +11,8 @@ namespace {
 
 class Census : public harness::GlFixture {
 protected:
-    std::vector<CensusRow> count(const Scene& scene, const View& view, Wishes wishes, std::span<const EffectCard* const> cards) {
+    std::vector<CensusRow> count(const Scene& scene, const View& view, Wishes wishes,
+                                 std::span<const EffectCard* const> cards) {
         wishes.census = true;
         Renderer renderer(gl(), caps(), {.effects = cards});
         renderer.prepare(scene, plan_frame(scene, view, wishes, caps(), cards));
@@ -28,9 +29,11 @@ TEST_F(Census, FindsNothingInTheBuiltInScenes) {
         for (const Tier tier : {Tier::low, Tier::console, Tier::reference}) {
             for (const Arithmetic arithmetic : {Arithmetic::half, Arithmetic::full}) {
                 for (const Camera& camera : scene.cameras) {
-                    for (const CensusRow& row : count(scene, view_of(camera, 128, 72), {.tier = tier, .arithmetic = arithmetic}, all_effects())) {
+                    for (const CensusRow& row : count(scene, view_of(camera, 128, 72),
+                                                      {.tier = tier, .arithmetic = arithmetic}, all_effects())) {
                         EXPECT_GT(row.values, 0u);
-                        EXPECT_EQ(row.nan + row.inf, 0u) << built_in.name << ' ' << name(tier) << ' ' << name(arithmetic) << ' ' << row.target;
+                        EXPECT_EQ(row.nan + row.inf, 0u)
+                            << built_in.name << ' ' << name(tier) << ' ' << name(arithmetic) << ' ' << row.target;
                         ++frames;
                     }
                 }
@@ -40,9 +43,10 @@ TEST_F(Census, FindsNothingInTheBuiltInScenes) {
     EXPECT_GT(frames, 12);
 }
 
-// A material effect that divides nothing by nothing where the surface has it: only a census can see it, because an 8-bit
-// target stores NaN as 0.
-constexpr gl::Insertion kPlanted[] = {{"surface.color", nullptr, "color *= (base_color.a - base_color.a) / (base_color.a - base_color.a);"}};
+// A material effect that divides nothing by nothing where the surface has it: only a census can see it, because an
+// 8-bit target stores NaN as 0.
+constexpr gl::Insertion kPlanted[] = {
+    {"surface.color", nullptr, "color *= (base_color.a - base_color.a) / (base_color.a - base_color.a);"}};
 const EffectCard kPlantedNan{
     .name = "planted_nan",
     .purpose = "Plants a 0/0.",
@@ -51,7 +55,10 @@ const EffectCard kPlantedNan{
     .called_for_by = "always",
     .budget_row = "",
     .tiers = {},
-    .called_for = [](const PlanContext&) { return Demand{true, "this test plants a 0/0"}; },
+    .called_for =
+        [](const PlanContext&) {
+            return Demand{true, "this test plants a 0/0"};
+        },
     .add_passes = nullptr,
     .insertions = [](const PlanContext&) { return std::span<const gl::Insertion>(kPlanted); },
     .prepare = nullptr,

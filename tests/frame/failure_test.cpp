@@ -31,7 +31,8 @@ protected:
         const gl::Loader real = ground().context.loader();
         gl::EntryPoints entry_points([=](const char* function) -> void* {
             if (std::string_view(function) == "glGetError") return reinterpret_cast<void*>(&played_get_error);
-            if (no_memory && std::string_view(function) == "glTexImage2D") return reinterpret_cast<void*>(&out_of_memory_tex_image);
+            if (no_memory && std::string_view(function) == "glTexImage2D")
+                return reinterpret_cast<void*>(&out_of_memory_tex_image);
             return real(function);
         });
         entry_points.restrict_to(caps());
@@ -52,7 +53,8 @@ TEST_F(Failure, ALostContextIsOneSentence) {
         FAIL() << "the loss went unnoticed";
     } catch (const Error& error) {
         EXPECT_EQ(error.exit_code(), 4);
-        EXPECT_NE(std::string(error.what()).find("context was lost while drawing square"), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find("context was lost while drawing square"), std::string::npos)
+            << error.what();
     }
 }
 

@@ -1,4 +1,5 @@
-// Timing methods: what calibration says holds, and every pass has as many samples as frames. No test looks at a duration.
+// Timing methods: what calibration says holds, and every pass has as many samples as frames. No test looks at a
+// duration.
 #include "engine/frame/pass_timer.h"
 
 #include <gtest/gtest.h>
@@ -20,14 +21,18 @@ TEST_F(PassTimerTest, CalibrationBelievesOnlyWhatSeesTheDraw) {
     if (seen.method == TimingMethod::timer_query) {
         EXPECT_GE(seen.timer_query_ms, 0.8 * seen.wall_ms);
     }
-    EXPECT_NE(seen.sentence.find(seen.method == TimingMethod::fence ? "fence" : seen.method == TimingMethod::finish ? "glFinish" : "queries"),
-              std::string::npos) << seen.sentence;
+    EXPECT_NE(seen.sentence.find(seen.method == TimingMethod::fence    ? "fence"
+                                 : seen.method == TimingMethod::finish ? "glFinish"
+                                                                       : "queries"),
+              std::string::npos)
+        << seen.sentence;
     EXPECT_EQ(gl().GetError(), static_cast<GLenum>(GL_NO_ERROR));
 }
 
 TEST_F(PassTimerTest, LlvmpipesTimerQueriesAreNotBelieved) {
     // They time the submission of a draw, not its rasterisation: believing them would make every figure wrong.
-    if (caps().renderer.find("llvmpipe") == std::string::npos) GTEST_SKIP() << "this is not llvmpipe but " << caps().renderer;
+    if (caps().renderer.find("llvmpipe") == std::string::npos)
+        GTEST_SKIP() << "this is not llvmpipe but " << caps().renderer;
     EXPECT_NE(calibrate_timing(gl(), caps()).method, TimingMethod::timer_query);
 }
 

@@ -36,7 +36,8 @@ TEST(Plan, PutsTheSkyBetweenOpaqueAndTransparent) {
     Scene scene = square_scene();
     scene.sky = Sky{};
     scene.materials.push_back({.alpha_mode = AlphaMode::blend});
-    scene.surfaces.push_back({.name = "pane", .mesh = 0, .material = 1, .world_from_local = glm::mat4(1.0f), .dynamic = false});
+    scene.surfaces.push_back(
+        {.name = "pane", .mesh = 0, .material = 1, .world_from_local = glm::mat4(1.0f), .dynamic = false});
     EXPECT_EQ(pass_names(plan(scene)), (Names{"surface_opaque", "sky", "surface_transparent", "tone_map"}));
     EXPECT_EQ(pass_names(plan(scene, {.tier = Tier::low})), (Names{"surface_opaque", "sky", "surface_transparent"}));
 }
@@ -72,11 +73,15 @@ TEST(Plan, ChoosesTheBestTierTheDeviceRuns) {
 }
 
 TEST(Plan, RefusesWhatTheDeviceCannot) {
-    EXPECT_NE(refusal(square_scene(), {.tier = Tier::console}, poor_caps()).find("needs OpenGL ES 3.0"), std::string::npos);
-    EXPECT_NE(refusal(square_scene(), {.effect_tiers = {{"sky", Tier::reference}}}, poor_caps()).find("ES 3.0"), std::string::npos);
+    EXPECT_NE(refusal(square_scene(), {.tier = Tier::console}, poor_caps()).find("needs OpenGL ES 3.0"),
+              std::string::npos);
+    EXPECT_NE(refusal(square_scene(), {.effect_tiers = {{"sky", Tier::reference}}}, poor_caps()).find("ES 3.0"),
+              std::string::npos);
     EXPECT_NE(refusal(square_scene(), {.arithmetic = Arithmetic::full}, poor_caps()).find("highp"), std::string::npos);
-    EXPECT_NE(refusal(square_scene(), {.storage = PixelFormat::rgba16f}, poor_caps()).find("RGBA16F"), std::string::npos);
-    EXPECT_NE(refusal(square_scene(), {.effect_tiers = {{"rain_of_frogs", Tier::low}}}).find("rain_of_frogs"), std::string::npos);
+    EXPECT_NE(refusal(square_scene(), {.storage = PixelFormat::rgba16f}, poor_caps()).find("RGBA16F"),
+              std::string::npos);
+    EXPECT_NE(refusal(square_scene(), {.effect_tiers = {{"rain_of_frogs", Tier::low}}}).find("rain_of_frogs"),
+              std::string::npos);
     EXPECT_NE(refusal(square_scene(), {.census = true}, poor_caps()).find("RGBA32F"), std::string::npos);
 }
 

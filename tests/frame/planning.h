@@ -49,7 +49,8 @@ inline Scene square_scene() {
     mesh.indices = {0, 1, 2, 0, 2, 3};
     scene.meshes.push_back(mesh);
     scene.materials.push_back({});
-    scene.surfaces.push_back({.name = "square", .mesh = 0, .material = 0, .world_from_local = glm::mat4(1.0f), .dynamic = false});
+    scene.surfaces.push_back(
+        {.name = "square", .mesh = 0, .material = 0, .world_from_local = glm::mat4(1.0f), .dynamic = false});
     return scene;
 }
 

@@ -20,16 +20,19 @@ TEST_F(RendererTest, DrawsEveryTierArithmeticAndStorage) {
     int drawn = 0;
     for (const Tier tier : {Tier::low, Tier::console, Tier::reference}) {
         for (const Arithmetic arithmetic : {Arithmetic::half, Arithmetic::full}) {
-            for (const gl::PixelFormat storage : {gl::PixelFormat::rgba32f, gl::PixelFormat::rgba16f, gl::PixelFormat::r11g11b10f,
-                                                  gl::PixelFormat::rgb10_a2, gl::PixelFormat::rgba8}) {
+            for (const gl::PixelFormat storage :
+                 {gl::PixelFormat::rgba32f, gl::PixelFormat::rgba16f, gl::PixelFormat::r11g11b10f,
+                  gl::PixelFormat::rgb10_a2, gl::PixelFormat::rgba8}) {
                 if (!caps().renders[static_cast<std::size_t>(storage)]) continue;
                 const auto rendered = render(scene, view, {.tier = tier, .arithmetic = arithmetic, .storage = storage});
                 EXPECT_GT(harness::coverage(rendered.picture), 0.5);
-                // Every tier shows the same room: the mean difference stays under 12 codes (low drops highlights of local
-                // lights and lights by vertex), where an all-black or unlit picture is past 40.
+                // Every tier shows the same room: the mean difference stays under 12 codes (low drops highlights of
+                // local lights and lights by vertex), where an all-black or unlit picture is past 40.
                 double sum = 0.0;
-                for (std::size_t i = 0; i < expected.rgba.size(); ++i) sum += std::abs(int{expected.rgba[i]} - int{rendered.picture.rgba[i]});
-                EXPECT_LT(sum / static_cast<double>(expected.rgba.size()), 12.0) << name(tier) << ' ' << name(arithmetic) << ' ' << name(storage);
+                for (std::size_t i = 0; i < expected.rgba.size(); ++i)
+                    sum += std::abs(int{expected.rgba[i]} - int{rendered.picture.rgba[i]});
+                EXPECT_LT(sum / static_cast<double>(expected.rgba.size()), 12.0)
+                    << name(tier) << ' ' << name(arithmetic) << ' ' << name(storage);
                 ++drawn;
             }
         }
@@ -70,7 +73,8 @@ TEST_F(RendererTest, CutsAMeshForADeviceWithSixteenBitIndices) {
     mesh.name = "fine square";
     for (int y = 0; y < side; ++y) {
         for (int x = 0; x < side; ++x) {
-            mesh.positions.push_back({static_cast<float>(x) / 300.0f - 0.5f, static_cast<float>(y) / 300.0f - 0.5f, 0.0f});
+            mesh.positions.push_back(
+                {static_cast<float>(x) / 300.0f - 0.5f, static_cast<float>(y) / 300.0f - 0.5f, 0.0f});
             mesh.normals.push_back({0.0f, 0.0f, 1.0f});
         }
     }
@@ -127,10 +131,12 @@ TEST_F(RendererTest, AnEmptySceneIsItsBackground) {
 TEST_F(RendererTest, TheBackgroundLooksTheSameOnEveryRung) {
     Scene scene = square_scene();
     scene.background = {0.2f, 0.4f, 0.8f};
-    for (const gl::PixelFormat storage : {gl::PixelFormat::rgba16f, gl::PixelFormat::r11g11b10f, gl::PixelFormat::rgb10_a2, gl::PixelFormat::rgba8}) {
+    for (const gl::PixelFormat storage :
+         {gl::PixelFormat::rgba16f, gl::PixelFormat::r11g11b10f, gl::PixelFormat::rgb10_a2, gl::PixelFormat::rgba8}) {
         if (!caps().renders[static_cast<std::size_t>(storage)]) continue;
         const Picture picture = render(scene, square_view(), {.storage = storage}).picture;
-        EXPECT_NEAR(picture.rgba[0], 51, 2) << name(storage);  // 2 codes: R11G11B10F keeps 6 bits and llvmpipe truncates
+        EXPECT_NEAR(picture.rgba[0], 51, 2)
+            << name(storage);  // 2 codes: R11G11B10F keeps 6 bits and llvmpipe truncates
         EXPECT_NEAR(picture.rgba[1], 102, 2) << name(storage);
         EXPECT_NEAR(picture.rgba[2], 204, 4) << name(storage);  // blue keeps 5 bits
     }

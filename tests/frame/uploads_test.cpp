@@ -10,7 +10,8 @@ namespace {
 Mesh strip(std::size_t count) {
     Mesh mesh;
     mesh.primitive = Primitive::triangle_strip;
-    for (std::size_t i = 0; i < count; ++i) mesh.positions.push_back({static_cast<float>(i), static_cast<float>(i % 2), 0.0f});
+    for (std::size_t i = 0; i < count; ++i)
+        mesh.positions.push_back({static_cast<float>(i), static_cast<float>(i % 2), 0.0f});
     return mesh;
 }
 
@@ -19,7 +20,8 @@ std::vector<std::array<int, 3>> triangles(const MeshPiece& piece) {
     std::vector<std::array<int, 3>> out;
     for (std::size_t i = 0; i + 2 < piece.indices.size(); i += 3) {
         std::array<int, 3> corners{};
-        for (std::size_t k = 0; k < 3; ++k) corners[k] = static_cast<int>(piece.vertices[piece.indices[i + k]].position[0]);
+        for (std::size_t k = 0; k < 3; ++k)
+            corners[k] = static_cast<int>(piece.vertices[piece.indices[i + k]].position[0]);
         out.push_back(corners);
     }
     return out;
@@ -90,7 +92,8 @@ TEST(Uploads, AnImageThatIsTooLargeIsHalved) {
     const Image small = fitted(checker(64, 16), 20, false);
     EXPECT_EQ(small.width, 16);
     EXPECT_EQ(small.height, 4);
-    for (std::size_t i = 0; i < small.rgba.size(); i += 4) EXPECT_EQ(small.rgba[i], 128) << "the mean of black and white";
+    for (std::size_t i = 0; i < small.rgba.size(); i += 4)
+        EXPECT_EQ(small.rgba[i], 128) << "the mean of black and white";
 }
 
 TEST(Uploads, AnImageBecomesAPowerOfTwo) {

@@ -97,9 +97,7 @@ const std::vector<Habit>& habits() {
              HOST(PixelStorei, GL_PACK_ALIGNMENT, 8);
          }},
         {"own pixel buffer",
-         [](const Host& host) {
-             HOST(BindBuffer, GL_PIXEL_PACK_BUFFER, made(host, "glGenBuffers"));
-         }},
+         [](const Host& host) { HOST(BindBuffer, GL_PIXEL_PACK_BUFFER, made(host, "glGenBuffers")); }},
         {"clear values",
          [](const Host& host) {
              HOST(ClearColor, 1.0f, 0.0f, 1.0f, 1.0f);

@@ -230,7 +230,30 @@ TEST(Shaders, MainOfTheToneMapWithATextureOnTheCpu) {
     EXPECT_NE(half[0], color[0]);
 }
 
-TEST(Shaders, EveryStageOfTheFrameIsEvaluatedInEveryModel) {
+TEST(Shaders, EveryFileCompilesInEveryTierAndArithmetic) {
+    int compiled = 0;
+    for (const gl::ShaderFile& file : gl::shader_files()) {
+        const std::string path = file.path;
+        const bool vertex = path.ends_with(".vert");
+        if (!vertex && !path.ends_with(".frag")) continue;
+        for (const char* tier : {"TIER_LOW", "TIER_CONSOLE", "TIER_REFERENCE"}) {
+            for (const gl::Arithmetic arithmetic : {gl::Arithmetic::half, gl::Arithmetic::full}) {
+                gl::ProgramDescription description;
+                description.name = path;
+                description.vertex = path;
+                description.fragment = path;
+                description.arithmetic = arithmetic;
+                description.defines = {{tier, "1"}};
+                const Module module = compile(description, vertex ? gl::Stage::vertex : gl::Stage::fragment);
+                EXPECT_EQ(module.function("main").parameters.size(), 0u) << path;
+                ++compiled;
+            }
+        }
+    }
+    EXPECT_GE(compiled, 6 * 12);  // twelve stages when this was written
+}
+
+TEST(Shaders, MainOfTheSurfaceIsEvaluatedInEveryModelAsWrittenAndCleaned) {
     gl::ProgramDescription surface;
     surface.name = "surface";
     surface.vertex = "surface/surface.vert";

@@ -23,14 +23,17 @@ double opaque_cover(const Scene& scene, const View& view) {
 
 namespace {
 
-constexpr std::array kShaders = {ShaderVariant{"depth_prepass/depth_prepass.vert", "depth_prepass/depth_prepass.frag", ""}};
+constexpr std::array kShaders = {
+    ShaderVariant{"depth_prepass/depth_prepass.vert", "depth_prepass/depth_prepass.frag", ""}};
 
 Demand called_for(const PlanContext& context) {
     const double cover = opaque_cover(context.scene, context.view);
     if (cover >= kPrepassCover) {
-        return {true, fmt::format("opaque surfaces cover the picture {:.1f} times (called for from {:.1f} on)", cover, kPrepassCover)};
+        return {true, fmt::format("opaque surfaces cover the picture {:.1f} times (called for from {:.1f} on)", cover,
+                                  kPrepassCover)};
     }
-    return {false, fmt::format("opaque surfaces cover the picture only {:.1f} times (called for from {:.1f} on)", cover, kPrepassCover)};
+    return {false, fmt::format("opaque surfaces cover the picture only {:.1f} times (called for from {:.1f} on)", cover,
+                               kPrepassCover)};
 }
 
 void add_passes(const PlanContext&, FramePlan& plan) {

@@ -8,7 +8,8 @@ namespace halfframe {
 
 namespace {
 
-constexpr std::array kShaders = {ShaderVariant{"sky/sky.vert", "sky/sky.frag", "SCENE_COLOR_DISPLAY SCENE_COLOR_PACKED"}};
+constexpr std::array kShaders = {
+    ShaderVariant{"sky/sky.vert", "sky/sky.frag", "SCENE_COLOR_DISPLAY SCENE_COLOR_PACKED"}};
 
 Demand called_for(const PlanContext& context) {
     if (context.scene.sky) return {true, "the scene has a sky"};
@@ -77,12 +78,16 @@ std::unique_ptr<EffectWork> prepare(Renderer& renderer) { return std::make_uniqu
 
 const EffectCard kSky{
     .name = "sky",
-    .purpose = "Draws a vertical gradient of display colours behind everything, as linear light where the frame is HDR.",
-    .sources = "S. Lagarde and L. Harduin, The Art and Rendering of Remember Me, GDC Europe 2013, LDR sky through the inverse tone map",
+    .purpose =
+        "Draws a vertical gradient of display colours behind everything, as linear light where the frame is HDR.",
+    .sources =
+        "S. Lagarde and L. Harduin, The Art and Rendering of Remember Me, GDC Europe 2013, LDR sky through the inverse "
+        "tone map",
     .kind = EffectKind::pass,
     .called_for_by = "Scene::sky",
     .budget_row = "sky",
-    .tiers = {TierCard{kShaders, "scene_color", "the gradient's display colours, stored as they are; no inverse tone map"},
+    .tiers = {TierCard{kShaders, "scene_color",
+                       "the gradient's display colours, stored as they are; no inverse tone map"},
               TierCard{kShaders, "scene_color", "the same gradient as linear light, mapped back by tone_map"},
               TierCard{kShaders, "scene_color", "as console, in highp from float targets"}},
     .called_for = called_for,

@@ -14,7 +14,8 @@ namespace halfframe {
 namespace {
 
 constexpr std::string_view kDefines =
-    "BASE_COLOR_MAP METALLIC_ROUGHNESS_MAP NORMAL_MAP EMISSIVE_MAP VERTEX_COLOR ALPHA_MASK ALPHA_BLEND DOUBLE_SIDED SUN "
+    "BASE_COLOR_MAP METALLIC_ROUGHNESS_MAP NORMAL_MAP EMISSIVE_MAP VERTEX_COLOR ALPHA_MASK ALPHA_BLEND DOUBLE_SIDED "
+    "SUN "
     "LOCAL_LIGHTS UNLIT POINTS SCENE_COLOR_PACKED";
 constexpr std::array kShaders = {ShaderVariant{"surface/surface.vert", "surface/surface.frag", kDefines}};
 
@@ -25,9 +26,10 @@ bool is_blended(const Scene& scene, const Surface& surface) {
 Demand called_for(const PlanContext& context) {
     const std::size_t count = context.scene.surfaces.size();
     if (count == 0) return {false, "the scene has no surfaces"};
-    const auto blended = std::ranges::count_if(context.scene.surfaces,
-                                               [&](const Surface& surface) { return is_blended(context.scene, surface); });
-    return {true, fmt::format("the scene has {} surface{}, {} of them translucent", count, count == 1 ? "" : "s", blended)};
+    const auto blended = std::ranges::count_if(
+        context.scene.surfaces, [&](const Surface& surface) { return is_blended(context.scene, surface); });
+    return {true,
+            fmt::format("the scene has {} surface{}, {} of them translucent", count, count == 1 ? "" : "s", blended)};
 }
 
 void add_passes(const PlanContext& context, FramePlan& plan) {
@@ -44,7 +46,8 @@ void add_passes(const PlanContext& context, FramePlan& plan) {
     };
     const auto blended = [&](const Surface& surface) { return is_blended(context.scene, surface); };
     if (!std::ranges::all_of(context.scene.surfaces, blended)) add("surface_opaque", kOpaquePhase, PassOrder::opaque);
-    if (std::ranges::any_of(context.scene.surfaces, blended)) add("surface_transparent", kTransparentPhase, PassOrder::transparent);
+    if (std::ranges::any_of(context.scene.surfaces, blended))
+        add("surface_transparent", kTransparentPhase, PassOrder::transparent);
 }
 
 std::unique_ptr<EffectWork> prepare(Renderer& renderer) { return std::make_unique<SurfaceWork>(renderer); }
@@ -65,7 +68,8 @@ std::vector<int> lights_reaching(const Scene& scene, const Box& box, int limit, 
         const glm::vec3 nearest = glm::clamp(light.position, box.low, box.high);
         const float distance_m = glm::distance(nearest, light.position);
         if (distance_m >= light.range_m) continue;
-        candidates.push_back({static_cast<int>(i), strongest_channel(light.color) / std::max(distance_m * distance_m, 0.01f)});
+        candidates.push_back(
+            {static_cast<int>(i), strongest_channel(light.color) / std::max(distance_m * distance_m, 0.01f)});
     }
     std::ranges::stable_sort(candidates, std::greater<>{}, &Candidate::strength);
     left_out = std::max(static_cast<int>(candidates.size()) - limit, 0);
@@ -77,13 +81,17 @@ std::vector<int> lights_reaching(const Scene& scene, const Box& box, int limit, 
 
 const EffectCard kSurface{
     .name = "surface",
-    .purpose = "Shades every mesh: Blinn microfacet direct light from a sun, points and spots, constant ambient, emission.",
-    .sources = "N. Hoffman, SIGGRAPH 2010 course, Crafting Physically Motivated Shading Models; S. Lagarde and L. Harduin, GDC Europe 2013",
+    .purpose =
+        "Shades every mesh: Blinn microfacet direct light from a sun, points and spots, constant ambient, emission.",
+    .sources =
+        "N. Hoffman, SIGGRAPH 2010 course, Crafting Physically Motivated Shading Models; S. Lagarde and L. Harduin, "
+        "GDC Europe 2013",
     .kind = EffectKind::pass,
     .called_for_by = "Scene::surfaces",
     .budget_row = "surface",
     .tiers = {TierCard{kShaders, "scene_color, depth",
-                       "the sun by pixel with its highlight; local lights by vertex and diffuse only; mediump where the device has no highp"},
+                       "the sun by pixel with its highlight; local lights by vertex and diffuse only; mediump where "
+                       "the device has no highp"},
               TierCard{kShaders, "scene_color, depth", "every light by pixel with highlights to a power of 2048"},
               TierCard{kShaders, "scene_color, depth", "as console, with the lobe as written, in highp"}},
     .called_for = called_for,

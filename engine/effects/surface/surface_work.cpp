@@ -27,7 +27,8 @@ const Material& material_of(const Renderer& renderer, const Surface& surface) {
 
 }  // namespace
 
-std::vector<std::string_view> SurfaceWork::defines_of(const Renderer& renderer, const Surface& surface, bool lit_locally) const {
+std::vector<std::string_view> SurfaceWork::defines_of(const Renderer& renderer, const Surface& surface,
+                                                      bool lit_locally) const {
     const Material& material = material_of(renderer, surface);
     const DrawMesh& mesh = renderer.mesh(surface.mesh);
     const bool lit = mesh.has_normals;
@@ -70,9 +71,11 @@ int SurfaceWork::variant_of(Renderer& renderer, const std::vector<std::string_vi
     variant.light_direction = program.uniform_if_used("light_direction");
     variant.light_count = program.uniform_if_used("light_count");
     renderer.use(program);
-    for (const auto& [sampler, unit] : {std::pair{"base_color_map", kBaseColorUnit}, std::pair{"metallic_roughness_map", kMetallicRoughnessUnit},
-                                        std::pair{"normal_map", kNormalUnit}, std::pair{"emissive_map", kEmissiveUnit}}) {
-        if (const int location = program.uniform_if_used(sampler); location >= 0) renderer.gl().Uniform1i(location, unit);
+    for (const auto& [sampler, unit] :
+         {std::pair{"base_color_map", kBaseColorUnit}, std::pair{"metallic_roughness_map", kMetallicRoughnessUnit},
+          std::pair{"normal_map", kNormalUnit}, std::pair{"emissive_map", kEmissiveUnit}}) {
+        if (const int location = program.uniform_if_used(sampler); location >= 0)
+            renderer.gl().Uniform1i(location, unit);
     }
     program.expect_all_uniforms_claimed();
     variants_.push_back(variant);
@@ -82,10 +85,16 @@ int SurfaceWork::variant_of(Renderer& renderer, const std::vector<std::string_vi
 void SurfaceWork::add_draw(Renderer& renderer, int index) {
     const Surface& surface = renderer.scene().surfaces[static_cast<std::size_t>(index)];
     const Material& material = material_of(renderer, surface);
-    Draw draw{.variant = 0, .surface = index, .material = surface.material, .double_sided = material.double_sided, .textures = {}, .lights = {}};
+    Draw draw{.variant = 0,
+              .surface = index,
+              .material = surface.material,
+              .double_sided = material.double_sided,
+              .textures = {},
+              .lights = {}};
     int left_out = 0;
-    draw.lights = lights_reaching(renderer.scene(), world_box(renderer.mesh(surface.mesh).box, surface.world_from_local),
-                                  SURFACE_LIGHT_LIMIT, left_out);
+    draw.lights =
+        lights_reaching(renderer.scene(), world_box(renderer.mesh(surface.mesh).box, surface.world_from_local),
+                        SURFACE_LIGHT_LIMIT, left_out);
     if (left_out > 0) {
         renderer.add_notice(fmt::format("{} lights reach {} and {} are drawn: the {} weakest are left out",
                                         left_out + SURFACE_LIGHT_LIMIT, surface.name, SURFACE_LIGHT_LIMIT, left_out));
@@ -94,10 +103,13 @@ void SurfaceWork::add_draw(Renderer& renderer, int index) {
     draw.variant = variant_of(renderer, defines);
     const bool decoded = renderer.tier_of("surface") != Tier::low && renderer.caps().srgb_textures;
     const auto uses = [&](std::string_view define) { return std::ranges::find(defines, define) != defines.end(); };
-    if (uses("BASE_COLOR_MAP")) draw.textures.push_back({kBaseColorUnit, renderer.texture(material.base_color_texture, decoded)});
-    if (uses("METALLIC_ROUGHNESS_MAP")) draw.textures.push_back({kMetallicRoughnessUnit, renderer.texture(material.metallic_roughness_texture, false)});
+    if (uses("BASE_COLOR_MAP"))
+        draw.textures.push_back({kBaseColorUnit, renderer.texture(material.base_color_texture, decoded)});
+    if (uses("METALLIC_ROUGHNESS_MAP"))
+        draw.textures.push_back({kMetallicRoughnessUnit, renderer.texture(material.metallic_roughness_texture, false)});
     if (uses("NORMAL_MAP")) draw.textures.push_back({kNormalUnit, renderer.texture(material.normal_texture, false)});
-    if (uses("EMISSIVE_MAP")) draw.textures.push_back({kEmissiveUnit, renderer.texture(material.emissive_texture, decoded)});
+    if (uses("EMISSIVE_MAP"))
+        draw.textures.push_back({kEmissiveUnit, renderer.texture(material.emissive_texture, decoded)});
     (material.alpha_mode == AlphaMode::blend ? transparent_ : opaque_).push_back(std::move(draw));
 }
 
@@ -110,7 +122,8 @@ SurfaceWork::SurfaceWork(Renderer& renderer) {
     }
     if (suns > 1) renderer.add_notice(fmt::format("the scene has {} suns and one is drawn: {}", suns, sun_->name));
     for (std::size_t i = 0; i < scene.surfaces.size(); ++i) add_draw(renderer, static_cast<int>(i));
-    // Fewest changes of program, then of material, then of culling; the scene's order decides the rest, so that every run is the same.
+    // Fewest changes of program, then of material, then of culling; the scene's order decides the rest, so that every
+    // run is the same.
     std::ranges::stable_sort(opaque_, [](const Draw& a, const Draw& b) {
         return std::tie(a.variant, a.material) < std::tie(b.variant, b.material);
     });
@@ -139,7 +152,8 @@ void SurfaceWork::set_material(Renderer& renderer, const View& view, const Varia
     renderer.set_cull(!draw.double_sided);
 }
 
-void SurfaceWork::set_matrices(Renderer& renderer, const View& view, const Variant& variant, const Draw& draw, const glm::mat4& clip) {
+void SurfaceWork::set_matrices(Renderer& renderer, const View& view, const Variant& variant, const Draw& draw,
+                               const glm::mat4& clip) {
     gl::EntryPoints& gl = renderer.gl();
     const Surface& surface = renderer.scene().surfaces[static_cast<std::size_t>(draw.surface)];
     const glm::mat4 eye = eye_from_local(view, surface.world_from_local);
@@ -148,18 +162,21 @@ void SurfaceWork::set_matrices(Renderer& renderer, const View& view, const Varia
     };
     set_matrix(variant.clip_from_local, clip);
     set_matrix(variant.eye_from_local, eye);
-    if (variant.normal_from_local >= 0) set_matrix(variant.normal_from_local, normal_from_local(surface.world_from_local));
+    if (variant.normal_from_local >= 0)
+        set_matrix(variant.normal_from_local, normal_from_local(surface.world_from_local));
     if (variant.toward_eye < 0) return;
-    // Without fragment highp, vertex_to_eye is scaled so that the farthest corner is 64 long: squares stay under 16384 (the
-    // least mediump must reach) and above half's smallest normal down to 1/8000 of that distance. Directions do not change.
+    // Without fragment highp, vertex_to_eye is scaled so that the farthest corner is 64 long: squares stay under 16384
+    // (the least mediump must reach) and above half's smallest normal down to 1/8000 of that distance. Directions do
+    // not change.
     float scale = 1.0f;
     if (!renderer.caps().fragment_highp) {
         const Box box = world_box(renderer.mesh(surface.mesh).box, eye);
         const float farthest = glm::length(glm::max(glm::abs(box.low), glm::abs(box.high)));
         scale = 64.0f / std::max(farthest, 1e-3f);
     }
-    const glm::vec3 toward = view.orthographic ? glm::vec3(view.view_from_world[0].z, view.view_from_world[1].z, view.view_from_world[2].z)
-                                               : glm::vec3(0.0f);
+    const glm::vec3 toward =
+        view.orthographic ? glm::vec3(view.view_from_world[0].z, view.view_from_world[1].z, view.view_from_world[2].z)
+                          : glm::vec3(0.0f);
     set(gl, variant.toward_eye, glm::vec4(toward, view.orthographic ? 1.0f : scale));
 }
 

@@ -40,13 +40,15 @@ private:
         std::vector<int> lights;
     };
 
-    [[nodiscard]] std::vector<std::string_view> defines_of(const Renderer& renderer, const Surface& surface, bool lit_locally) const;
+    [[nodiscard]] std::vector<std::string_view> defines_of(const Renderer& renderer, const Surface& surface,
+                                                           bool lit_locally) const;
     int variant_of(Renderer& renderer, const std::vector<std::string_view>& defines);
     void add_draw(Renderer& renderer, int surface);
     void sort_by_distance(const Renderer& renderer, const View& view);
     void set_variant(Renderer& renderer, const View& view, const Variant& variant);
     void set_material(Renderer& renderer, const View& view, const Variant& variant, const Draw& draw);
-    void set_matrices(Renderer& renderer, const View& view, const Variant& variant, const Draw& draw, const glm::mat4& clip);
+    void set_matrices(Renderer& renderer, const View& view, const Variant& variant, const Draw& draw,
+                      const glm::mat4& clip);
     void set_lights(Renderer& renderer, const View& view, const Variant& variant, const Draw& draw);
     void draw_one(Renderer& renderer, const View& view, const Draw& draw);
 

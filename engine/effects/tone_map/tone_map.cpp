@@ -9,14 +9,18 @@ namespace halfframe {
 
 namespace {
 
-constexpr std::array kShaders = {ShaderVariant{"tone_map/tone_map.vert", "tone_map/tone_map.frag", "SCENE_COLOR_PACKED"}};
-constexpr std::array kInsertions = {gl::Insertion{"surface.color", "tone_map/tone_map.glsl", "color = tone_map(color);"}};
+constexpr std::array kShaders = {
+    ShaderVariant{"tone_map/tone_map.vert", "tone_map/tone_map.frag", "SCENE_COLOR_PACKED"}};
+constexpr std::array kInsertions = {
+    gl::Insertion{"surface.color", "tone_map/tone_map.glsl", "color = tone_map(color);"}};
 
 Demand called_for(const PlanContext& context) {
     const bool draws = !context.scene.surfaces.empty() || context.scene.sky.has_value();
     if (!draws) return {false, "nothing is lit: the scene has no surfaces and no sky"};
-    if (!holds_display_values(context.storage)) return {true, std::string("scene_color holds linear light (") + name(context.storage) + ")"};
-    if (context.scene.surfaces.empty()) return {false, "the sky is stored as display values, so there is nothing to map"};
+    if (!holds_display_values(context.storage))
+        return {true, std::string("scene_color holds linear light (") + name(context.storage) + ")"};
+    if (context.scene.surfaces.empty())
+        return {false, "the sky is stored as display values, so there is nothing to map"};
     return {true, "the surface shader maps its own light: scene_color holds display values (RGBA8)"};
 }
 
@@ -74,11 +78,14 @@ std::unique_ptr<EffectWork> prepare(Renderer& renderer) { return std::make_uniqu
 const EffectCard kToneMap{
     .name = "tone_map",
     .purpose = "Turns linear light into display values with the talk's curve, 1.0275 x / (x + 0.22).",
-    .sources = "S. Lagarde and L. Harduin, The Art and Rendering of Remember Me, GDC Europe 2013, tone mapping and LDR sky",
+    .sources =
+        "S. Lagarde and L. Harduin, The Art and Rendering of Remember Me, GDC Europe 2013, tone mapping and LDR sky",
     .kind = EffectKind::pass,
     .called_for_by = "anything lit",
     .budget_row = "tone_map",
-    .tiers = {TierCard{kShaders, "display", "no pass: surfaces map their own light, so translucents blend display values (a little too dark)"},
+    .tiers = {TierCard{
+                  kShaders, "display",
+                  "no pass: surfaces map their own light, so translucents blend display values (a little too dark)"},
               TierCard{kShaders, "display", "one pass over the picture; whites from a light of 8"},
               TierCard{kShaders, "display", "as console, in highp from float targets"}},
     .called_for = called_for,

@@ -10,7 +10,8 @@ namespace halfframe::tests {
 namespace {
 
 harness::ChildResult trace(const std::string& program, std::string_view scene, Tier tier) {
-    return harness::run_child({.arguments = {std::string(TRACE_FRAME_FOLDER) + "/" + program, std::string(scene), name(tier)}});
+    return harness::run_child(
+        {.arguments = {std::string(TRACE_FRAME_FOLDER) + "/" + program, std::string(scene), name(tier)}});
 }
 
 class OffIsFree : public harness::GlFixture, public testing::WithParamInterface<std::string> {};
@@ -22,14 +23,16 @@ TEST_P(OffIsFree, TheTraceIsThatOfABuildWithoutTheEffect) {
         const Scene scene = built_in.make();
         const View view = view_of(scene.cameras.empty() ? camera_framing(Box{}, 1.0f) : scene.cameras.front(), 64, 64);
         for (const Tier tier : {Tier::low, Tier::console, Tier::reference}) {
-            const FramePlan plan = plan_frame(scene, view, {.tier = tier, .arithmetic = Arithmetic::full}, caps(), all_effects());
+            const FramePlan plan =
+                plan_frame(scene, view, {.tier = tier, .arithmetic = Arithmetic::full}, caps(), all_effects());
             if (plan.find(effect)->in) continue;
             const auto with = trace("trace_frame", built_in.name, tier);
             const auto without = trace("trace_frame_without_" + effect, built_in.name, tier);
             ASSERT_EQ(with.exit_code, 0) << with.story();
             ASSERT_EQ(without.exit_code, 0) << without.story();
             EXPECT_GT(with.output.size(), 500u);
-            EXPECT_EQ(with.output, without.output) << built_in.name << " at tier " << name(tier) << " pays for " << effect;
+            EXPECT_EQ(with.output, without.output)
+                << built_in.name << " at tier " << name(tier) << " pays for " << effect;
             ++compared;
         }
     }
@@ -43,8 +46,8 @@ TEST_P(OffIsFree, TheOtherBuildReallyLacksTheEffect) {
     for (const content::BuiltInScene& built_in : content::built_in_scenes()) {
         const Scene scene = built_in.make();
         if (scene.cameras.empty()) continue;
-        const FramePlan plan = plan_frame(scene, view_of(scene.cameras.front(), 64, 64), {.tier = Tier::low, .arithmetic = Arithmetic::full},
-                                          caps(), all_effects());
+        const FramePlan plan = plan_frame(scene, view_of(scene.cameras.front(), 64, 64),
+                                          {.tier = Tier::low, .arithmetic = Arithmetic::full}, caps(), all_effects());
         if (!plan.find(effect)->in) continue;
         const auto with = trace("trace_frame", built_in.name, Tier::low);
         const auto without = trace("trace_frame_without_" + effect, built_in.name, Tier::low);
@@ -61,7 +64,8 @@ std::vector<std::string> effect_names() {
     return names;
 }
 
-INSTANTIATE_TEST_SUITE_P(Effects, OffIsFree, testing::ValuesIn(effect_names()), [](const auto& effect) { return effect.param; });
+INSTANTIATE_TEST_SUITE_P(Effects, OffIsFree, testing::ValuesIn(effect_names()),
+                         [](const auto& effect) { return effect.param; });
 
 }  // namespace
 }  // namespace halfframe::tests

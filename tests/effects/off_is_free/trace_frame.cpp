@@ -20,7 +20,9 @@ int main(int argc, char** argv) {
         const View view = view_of(scene.cameras.empty() ? camera_framing(Box{}, 1.0f) : scene.cameras.front(), 64, 64);
         gl.start_trace();
         Renderer renderer(gl, caps);
-        renderer.prepare(scene, plan_frame(scene, view, {.tier = tier_from_name(argv[2]), .arithmetic = Arithmetic::full}, caps, all_effects()));
+        renderer.prepare(
+            scene, plan_frame(scene, view, {.tier = tier_from_name(argv[2]), .arithmetic = Arithmetic::full}, caps,
+                              all_effects()));
         renderer.draw(view);
         (void)renderer.read_display();
         std::fputs(gl.trace_json().c_str(), stdout);

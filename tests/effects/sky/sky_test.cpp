@@ -17,7 +17,9 @@ protected:
         scene.sky = Sky{.zenith = {0.2f, 0.3f, 0.9f}, .horizon = {0.8f, 0.6f, 0.4f}, .ground = {0.1f, 0.2f, 0.1f}};
         return scene;
     }
-    static View looking(const glm::vec3& target) { return view_of(camera_looking({0, 0, 0}, target, 0.8f, Box{}), 33, 33); }
+    static View looking(const glm::vec3& target) {
+        return view_of(camera_looking({0, 0, 0}, target, 0.8f, Box{}), 33, 33);
+    }
     std::array<int, 3> centre(const Scene& scene, const View& view, const Wishes& wishes) {
         const Picture picture = render(scene, view, wishes, all_effects(), harness::FlatPicture::is_expected).picture;
         const std::size_t at = (16u * 33u + 16u) * 4u;
@@ -32,9 +34,10 @@ TEST_F(SkyTest, ShowsTheDisplayColoursItWasGiven) {
         int tolerance;  ///< display codes
     };
     // Half's rounding before and after the curve is under 2 codes; R11G11B10F truncates 6 and 5 bits.
-    for (const Rung& rung : {Rung{Tier::low, gl::PixelFormat::rgba8, 1}, Rung{Tier::console, gl::PixelFormat::rgba16f, 2},
-                             Rung{Tier::console, gl::PixelFormat::r11g11b10f, 5}, Rung{Tier::console, gl::PixelFormat::rgb10_a2, 2},
-                             Rung{Tier::reference, gl::PixelFormat::rgba32f, 1}}) {
+    for (const Rung& rung :
+         {Rung{Tier::low, gl::PixelFormat::rgba8, 1}, Rung{Tier::console, gl::PixelFormat::rgba16f, 2},
+          Rung{Tier::console, gl::PixelFormat::r11g11b10f, 5}, Rung{Tier::console, gl::PixelFormat::rgb10_a2, 2},
+          Rung{Tier::reference, gl::PixelFormat::rgba32f, 1}}) {
         if (!caps().renders[static_cast<std::size_t>(rung.storage)]) continue;
         const Wishes wishes{.tier = rung.tier, .arithmetic = {}, .storage = rung.storage};
         const auto up = centre(skies(), looking({0, 1, 0.001f}), wishes);
@@ -63,7 +66,8 @@ TEST_F(SkyTest, IsBehindEverything) {
 TEST_F(SkyTest, AnOrthographicEyeSeesOneColour) {
     Camera camera = camera_looking({0, 0, 0}, {0, 0.2f, -1}, 0.8f, Box{});
     camera.orthographic = true;
-    const Picture picture = render(skies(), view_of(camera, 33, 33), {}, all_effects(), harness::FlatPicture::is_expected).picture;
+    const Picture picture =
+        render(skies(), view_of(camera, 33, 33), {}, all_effects(), harness::FlatPicture::is_expected).picture;
     EXPECT_EQ(harness::coverage(picture), 0.0);
 }
 

@@ -15,7 +15,8 @@ namespace {
 using glm::dvec3;
 
 /// Hoffman 2010: (albedo + F (p + 2)/8 (n.h)^p) n.l c, with c the light's colour.
-dvec3 hoffman(const dvec3& base, double metallic, double roughness, const dvec3& n, const dvec3& v, const dvec3& l, const dvec3& color) {
+dvec3 hoffman(const dvec3& base, double metallic, double roughness, const dvec3& n, const dvec3& v, const dvec3& l,
+              const dvec3& color) {
     const dvec3 h = glm::normalize(l + v);
     const double srgb_59 = std::pow((59.0 / 255.0 + 0.055) / 1.055, 2.4);  // the talk's default dielectric
     const dvec3 albedo = base * (1.0 - metallic);
@@ -52,8 +53,9 @@ protected:
                     const double ratio = glm::dot(to_light, to_light) / (double(light.range_m) * light.range_m);
                     color *= std::pow(std::max(1.0 - ratio * ratio, 0.0), 2.0) / glm::dot(to_light, to_light);
                 }
-                const dvec3 expected = hoffman(dvec3(material.base_color), material.metallic, material.roughness, {0, 0, 1},
-                                               glm::normalize(dvec3(0, 0, 2) - at), glm::normalize(to_light), color);
+                const dvec3 expected =
+                    hoffman(dvec3(material.base_color), material.metallic, material.roughness, {0, 0, 1},
+                            glm::normalize(dvec3(0, 0, 2) - at), glm::normalize(to_light), color);
                 const dvec3 got(pixel(picture, x, y));
                 for (int c = 0; c < 3; ++c) {
                     worst = std::max(worst, std::abs(got[c] - expected[c]));
@@ -67,17 +69,14 @@ protected:
 };
 
 // The camera's default field of view must be the one worst_error() assumes.
-TEST_F(Surface, TheViewIsTheOneTheReferenceAssumes) {
-    EXPECT_NEAR(Camera{}.fov_y_rad, glm::radians(45.0), 1e-6);
-}
+TEST_F(Surface, TheViewIsTheOneTheReferenceAssumes) { EXPECT_NEAR(Camera{}.fov_y_rad, glm::radians(45.0), 1e-6); }
 
 TEST_F(Surface, DirectLightIsHoffmans) {
     const Case cases[] = {
         {Tier::reference, Arithmetic::full, 2e-3},  // float pow of a power up to 2048, and 16-bit normals
         {Tier::console, Arithmetic::full, 8e-3},    // the lobe's series stops at x^3: 0.6 % of the peak at a power of 2
         {Tier::console, Arithmetic::half, 2e-2},    // the same with 11-bit arithmetic after the chord
-        {Tier::low, Arithmetic::full, 8e-3},
-        {Tier::low, Arithmetic::half, 2e-2},
+        {Tier::low, Arithmetic::full, 8e-3},       {Tier::low, Arithmetic::half, 2e-2},
     };
     for (const Case& test_case : cases) {
         for (const double roughness : {0.15, 0.3, 0.6, 1.0}) {
@@ -86,20 +85,27 @@ TEST_F(Surface, DirectLightIsHoffmans) {
                 scene.materials[0].base_color = {0.8f, 0.5f, 0.2f, 1.0f};
                 scene.materials[0].roughness = static_cast<float>(roughness);
                 scene.materials[0].metallic = static_cast<float>(metallic);
-                scene.lights.push_back({.kind = LightKind::sun, .color = {1.0f, 0.9f, 0.8f}, .direction = glm::normalize(glm::vec3(-0.2f, -0.1f, -1.0f))});
+                scene.lights.push_back({.kind = LightKind::sun,
+                                        .color = {1.0f, 0.9f, 0.8f},
+                                        .direction = glm::normalize(glm::vec3(-0.2f, -0.1f, -1.0f))});
                 EXPECT_LT(worst_error(scene, test_case, false), test_case.tolerance)
-                    << name(test_case.tier) << ' ' << name(test_case.arithmetic) << " roughness " << roughness << " metallic " << metallic;
+                    << name(test_case.tier) << ' ' << name(test_case.arithmetic) << " roughness " << roughness
+                    << " metallic " << metallic;
             }
         }
     }
 }
 
 TEST_F(Surface, PointLightFallsWithTheSquareOfDistance) {
-    for (const Case& test_case : {Case{Tier::reference, Arithmetic::full, 2e-3}, Case{Tier::console, Arithmetic::full, 8e-3}, Case{Tier::console, Arithmetic::half, 2e-2}}) {
+    for (const Case& test_case :
+         {Case{Tier::reference, Arithmetic::full, 2e-3}, Case{Tier::console, Arithmetic::full, 8e-3},
+          Case{Tier::console, Arithmetic::half, 2e-2}}) {
         Scene scene = wide_square();
         scene.materials[0].roughness = 0.5f;
-        scene.lights.push_back({.kind = LightKind::point, .color = {2.0f, 2.0f, 2.0f}, .position = {0.3f, -0.2f, 0.8f}, .range_m = 6.0f});
-        EXPECT_LT(worst_error(scene, test_case, true), test_case.tolerance) << name(test_case.tier) << ' ' << name(test_case.arithmetic);
+        scene.lights.push_back(
+            {.kind = LightKind::point, .color = {2.0f, 2.0f, 2.0f}, .position = {0.3f, -0.2f, 0.8f}, .range_m = 6.0f});
+        EXPECT_LT(worst_error(scene, test_case, true), test_case.tolerance)
+            << name(test_case.tier) << ' ' << name(test_case.arithmetic);
     }
 }
 
@@ -134,8 +140,8 @@ TEST_F(Surface, ConstantAmbientMakesAFurnace) {
         float metallic, roughness;
         double expected;
     };
-    // Albedo 1 and specular 1 in a white room reflect everything: (1, rough dielectric) adds its own specular on top, because
-    // the talk's model does not take it from the diffuse.
+    // Albedo 1 and specular 1 in a white room reflect everything: (1, rough dielectric) adds its own specular on top,
+    // because the talk's model does not take it from the diffuse.
     for (const Furnace& furnace : {Furnace{{1, 1, 1, 1}, 1.0f, 0.5f, 1.0}, Furnace{{0, 0, 0, 1}, 1.0f, 1.0f, 0.0}}) {
         Scene scene = wide_square();
         scene.ambient = glm::vec3(1.0f);
@@ -167,7 +173,8 @@ TEST_F(Surface, AlphaMaskCutsAndBlendMixes) {
     scene.materials[0].base_color = {1.0f, 0.0f, 0.0f, 0.4f};
     scene.materials[0].metallic = 0.0f;
     const auto centre = [&](Tier tier) {
-        const Picture picture = render(scene, square_view(), {.tier = tier}, all_effects(), harness::FlatPicture::is_expected).picture;
+        const Picture picture =
+            render(scene, square_view(), {.tier = tier}, all_effects(), harness::FlatPicture::is_expected).picture;
         const std::size_t at = (32u * 64u + 32u) * 4u;
         return std::array<int, 3>{picture.rgba[at], picture.rgba[at + 1], picture.rgba[at + 2]};
     };
@@ -191,18 +198,24 @@ TEST_F(Surface, LowDecodesSrgbAsTheTextureUnitDoes) {
     for (const int code : {10, 40, 128, 200, 250}) {
         const auto byte = static_cast<std::uint8_t>(code);
         scene.images = {{.name = "grey", .width = 1, .height = 1, .srgb = true, .rgba = {byte, byte, byte, 255}}};
-        const double console = pixel(scene_color(ground(), scene, square_view(), Tier::console, Arithmetic::full), 32, 32).g;
+        const double console =
+            pixel(scene_color(ground(), scene, square_view(), Tier::console, Arithmetic::full), 32, 32).g;
         const double low = pixel(scene_color(ground(), scene, square_view(), Tier::low, Arithmetic::full), 32, 32).g;
-        EXPECT_NEAR(low, console, 0.004) << "code " << code;  // the cubic of common/colour.glsl is within 0.0018, on albedo and F0
+        EXPECT_NEAR(low, console, 0.004) << "code "
+                                         << code;  // the cubic of common/colour.glsl is within 0.0018, on albedo and F0
     }
 }
 
 TEST_F(Surface, LightsReachOnlyTheirRangeStrongestFirst) {
     Scene scene;
     for (int i = 0; i < 12; ++i) {
-        scene.lights.push_back({.kind = LightKind::point, .color = glm::vec3(1.0f + static_cast<float>(i)), .position = {0.0f, 2.0f, 0.0f}, .range_m = 5.0f});
+        scene.lights.push_back({.kind = LightKind::point,
+                                .color = glm::vec3(1.0f + static_cast<float>(i)),
+                                .position = {0.0f, 2.0f, 0.0f},
+                                .range_m = 5.0f});
     }
-    scene.lights.push_back({.kind = LightKind::point, .color = glm::vec3(1e6f), .position = {0.0f, 100.0f, 0.0f}, .range_m = 5.0f});
+    scene.lights.push_back(
+        {.kind = LightKind::point, .color = glm::vec3(1e6f), .position = {0.0f, 100.0f, 0.0f}, .range_m = 5.0f});
     scene.lights.push_back({.kind = LightKind::sun});
     int left_out = -1;
     const auto lights = lights_reaching(scene, Box{.low = glm::vec3(-1.0f), .high = glm::vec3(1.0f)}, 8, left_out);
@@ -214,7 +227,8 @@ TEST_F(Surface, LightsReachOnlyTheirRangeStrongestFirst) {
 
 TEST_F(Surface, SaysWhichLightsAreLeftOut) {
     Scene scene = wide_square();
-    for (int i = 0; i < 10; ++i) scene.lights.push_back({.kind = LightKind::point, .position = {0.0f, 0.0f, 1.0f}, .range_m = 5.0f});
+    for (int i = 0; i < 10; ++i)
+        scene.lights.push_back({.kind = LightKind::point, .position = {0.0f, 0.0f, 1.0f}, .range_m = 5.0f});
     Renderer renderer(gl(), caps());
     renderer.prepare(scene, plan_frame(scene, square_view(), {}, caps(), all_effects()));
     ASSERT_EQ(renderer.notices().size(), 1u);

@@ -21,7 +21,8 @@ Scene glowing(float light) {
 class ToneMap : public harness::GlFixture {
 protected:
     int code(float light, const Wishes& wishes) {
-        const auto rendered = render(glowing(light), square_view(16, 16), wishes, all_effects(), harness::FlatPicture::is_expected);
+        const auto rendered =
+            render(glowing(light), square_view(16, 16), wishes, all_effects(), harness::FlatPicture::is_expected);
         return rendered.picture.rgba[(8 * 16 + 8) * 4];
     }
 };
@@ -33,8 +34,11 @@ TEST_F(ToneMap, GivesTheTalksCodes) {
     };
     // RGBA16F: half's rounding at the steep top. R11G11B10F: 6 bits, truncated. RGB10_A2: the square root's ten bits.
     // RGBA8 maps in the shader, so nothing is lost before the curve.
-    const Storage storages[] = {{gl::PixelFormat::rgba32f, 1}, {gl::PixelFormat::rgba16f, 1}, {gl::PixelFormat::r11g11b10f, 2},
-                                {gl::PixelFormat::rgb10_a2, 1}, {gl::PixelFormat::rgba8, 1}};
+    const Storage storages[] = {{gl::PixelFormat::rgba32f, 1},
+                                {gl::PixelFormat::rgba16f, 1},
+                                {gl::PixelFormat::r11g11b10f, 2},
+                                {gl::PixelFormat::rgb10_a2, 1},
+                                {gl::PixelFormat::rgba8, 1}};
     for (const Storage& storage : storages) {
         if (!caps().renders[static_cast<std::size_t>(storage.format)]) continue;
         for (const Tier tier : {Tier::low, Tier::console, Tier::reference}) {
@@ -42,8 +46,9 @@ TEST_F(ToneMap, GivesTheTalksCodes) {
                 for (const double light : {0.0, 0.01, 0.1, 0.5, 1.0, 4.0, 8.0, 100.0, 60000.0}) {
                     const double clamped = std::min(light, 8.0);
                     const double expected = 255.0 * 1.0275 * clamped / (clamped + 0.22);
-                    EXPECT_NEAR(code(static_cast<float>(light), {.tier = tier, .arithmetic = arithmetic, .storage = storage.format}), expected,
-                                storage.codes)
+                    EXPECT_NEAR(code(static_cast<float>(light),
+                                     {.tier = tier, .arithmetic = arithmetic, .storage = storage.format}),
+                                expected, storage.codes)
                         << light << ' ' << name(tier) << ' ' << name(arithmetic) << ' ' << name(storage.format);
                 }
             }
@@ -63,7 +68,8 @@ TEST_F(ToneMap, IsAPassOnlyWhereLightIsStored) {
     const Scene scene = glowing(1.0f);
     EXPECT_EQ(plan(scene, {.tier = Tier::console}).passes.back().name, "tone_map");
     EXPECT_EQ(plan(scene, {.tier = Tier::low}).passes.back().name, "surface_opaque");
-    EXPECT_EQ(plan(scene, {.tier = Tier::console, .storage = gl::PixelFormat::rgba8}).passes.back().name, "surface_opaque");
+    EXPECT_EQ(plan(scene, {.tier = Tier::console, .storage = gl::PixelFormat::rgba8}).passes.back().name,
+              "surface_opaque");
     EXPECT_FALSE(plan({.name = "nothing"}).find("tone_map")->in);
 }
 

@@ -1,4 +1,4 @@
-// Drives glslang and SPIRV-Tools. Nothing else in the project needs their headers.
+// Drives glslang and the validator and optimizer of SPIRV-Tools.
 #include "perf/shader_ir/compile.h"
 
 #include <fmt/format.h>
@@ -8,6 +8,7 @@
 
 #include <spirv-tools/libspirv.hpp>
 #include <spirv-tools/optimizer.hpp>
+#include <sstream>
 
 #include "engine/error.h"
 
@@ -24,9 +25,18 @@ struct GlslangProcess {
     GlslangProcess& operator=(const GlslangProcess&) = delete;
 };
 
-/// glslang's report without the lines that say nothing, with our files and lines.
+/// Throws glslang's report with our files and lines, without the lines that only say that it stopped.
 [[noreturn]] void refuse(const std::string& log, const gl::StageText& text) {
-    throw Error(Fault::check, "a shader does not compile to SPIR-V: " + gl::translate_log(log, text));
+    constexpr std::string_view kMark = "ERROR: ";
+    std::string story;
+    std::istringstream lines(gl::translate_log(log, text));
+    for (std::string line; std::getline(lines, line);) {
+        const bool says_nothing = line.find("compilation terminated") != std::string::npos ||
+                                  line.find("compilation errors") != std::string::npos;
+        if (!line.starts_with(kMark) || says_nothing) continue;
+        story += (story.empty() ? "" : "; ") + line.substr(kMark.size());
+    }
+    throw Error(Fault::check, "a shader does not compile to SPIR-V: " + (story.empty() ? log : story));
 }
 
 std::vector<std::uint32_t> spirv_of(const gl::StageText& text, gl::Stage stage) {

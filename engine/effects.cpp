@@ -9,11 +9,11 @@ namespace halfframe {
 namespace {
 
 constexpr auto kEffects = std::to_array<const EffectCard*>({
-#ifndef HALFFRAME_WITHOUT_DEPTH_PREPASS
-    &kDepthPrepass,
-#endif
 #ifndef HALFFRAME_WITHOUT_SURFACE
     &kSurface,
+#endif
+#ifndef HALFFRAME_WITHOUT_DEPTH_PREPASS
+    &kDepthPrepass,  // after surface: it serves nothing without it
 #endif
 #ifndef HALFFRAME_WITHOUT_SKY
     &kSky,

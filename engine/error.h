@@ -35,6 +35,13 @@ public:
     using std::logic_error::logic_error;
 };
 
+/// A call, format or limit that the device mask in force does not grant was used all the same. Ours to mend when the
+/// device is one of content/devices; otherwise the device is poorer than any tier promises to run on.
+class MaskedUse : public Mistake {
+public:
+    using Mistake::Mistake;
+};
+
 /// Stops with `sentence` (put the values in it) and the place when `holds` is false.
 /// The sentence is only built by the caller when needed: use the lambda form inside loops.
 inline void expect(bool holds, const char* sentence, std::source_location place = std::source_location::current()) {

@@ -26,6 +26,7 @@ struct PlanContext {
     Tier tier;  ///< of this effect
     Arithmetic arithmetic;
     gl::PixelFormat storage;  ///< of scene_color
+    const FramePlan& plan;    ///< so far: what the cards before this one in the list decided
 };
 
 /// The answer of a demand predicate: does the scene call for the effect, and the sentence why or why not.

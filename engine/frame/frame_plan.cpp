@@ -221,12 +221,19 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Wishes& wishes,
     plan.depth_format =
         renders(caps, PixelFormat::depth24) && plan.tier != Tier::low ? PixelFormat::depth24 : PixelFormat::depth16;
     if (wishes.census && !renders(caps, PixelFormat::rgba32f)) {
-        throw Error(Fault::usage,
-                    fmt::format("the census needs RGBA32F targets and {} does not render them", caps.device));
+        throw Error(Fault::usage, fmt::format("the census needs RGBA32F targets and {} does not render them; leave "
+                                              "--census out or use --device native",
+                                              caps.device));
     }
     for (const EffectCard* card : cards) {
         const Tier tier = tier_for(card->name, plan.tier, wishes, caps);
-        decide(*card, {scene, view, caps, tier, plan.arithmetic, plan.storage}, wishes, plan);
+        decide(*card, {scene, view, caps, tier, plan.arithmetic, plan.storage, plan}, wishes, plan);
+    }
+    const EffectDecision* tone_map = plan.find("tone_map");
+    if (tone_map != nullptr && !tone_map->in && switch_for("tone_map", wishes) && !plan.passes.empty()) {
+        throw Error(Fault::usage,
+                    "tone_map cannot be switched off: without it, light would be shown as if it were a display's "
+                    "values; leave tone_map.on out");
     }
     std::ranges::stable_sort(plan.passes, {}, &Pass::order);
     const glm::vec4 background = background_in(scene.background, plan.storage);

@@ -49,6 +49,7 @@ struct Pass {
     std::vector<int> reads;    ///< targets sampled
     std::optional<int> color;  ///< target written
     std::optional<int> depth;  ///< depth target bound
+    bool writes_color = true;  ///< false: bound and perhaps cleared, but masked
     bool writes_depth = false;
     StartAction start_color = StartAction::keep;
     StartAction start_depth = StartAction::keep;

@@ -15,7 +15,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kHeavySize = 384;    // pixels a side: about 40 ms on two llvmpipe threads, under 1 ms on a phone
+constexpr int kHeavySize = 384;    // at most; pixels a side: about 40 ms on two llvmpipe threads, under 1 ms on a phone
 constexpr double kBelieved = 0.8;  // of the wall time of the same draw, in the worst of three: less is something else
 constexpr GLuint64 kFenceWaitNs = 2'000'000'000;
 constexpr GLenum kTimeElapsed = 0x88BF;  // GL_TIME_ELAPSED, EXT_disjoint_timer_query
@@ -60,7 +60,8 @@ public:
         seed_ = program_->uniform("seed");
         target_ = gl::create<gl::Kind::texture>(gl);
         gl.BindTexture(GL_TEXTURE_2D, target_.name());
-        gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA, kHeavySize, kHeavySize, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
+        const int side = std::min(kHeavySize, caps.max_texture_size);
+        gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA, side, side, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
         gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
         framebuffer_ = gl::create<gl::Kind::framebuffer>(gl);
         gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
@@ -75,7 +76,7 @@ public:
         gl.BufferData(GL_ARRAY_BUFFER, sizeof(kTriangle), kTriangle.data(), GL_STATIC_DRAW);
         gl.VertexAttribPointer(0, 2, GL_FLOAT, GL_FALSE, 0, nullptr);
         gl.EnableVertexAttribArray(0);
-        gl.Viewport(0, 0, kHeavySize, kHeavySize);
+        gl.Viewport(0, 0, side, side);
         for (const GLenum capability : {GL_DEPTH_TEST, GL_BLEND, GL_CULL_FACE}) gl.Disable(capability);
         gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     }

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/error.h"
 #include "engine/frame/frame_plan.h"
 #include "engine/frame/image.h"
 #include "engine/frame/pass_timer.h"

@@ -237,8 +237,8 @@ void EntryPoints::before(int call) {
 
 void EntryPoints::refuse(int call, const std::string& reason) const {
     const std::string device = restricted_ ? "device \"" + caps_.device + "\"" : "this context";
-    throw Mistake(std::string(call_name(call)) + " in pass \"" + current_pass() + "\" is refused by " + device + ": " +
-                  reason);
+    throw MaskedUse(std::string(call_name(call)) + " in pass \"" + current_pass() + "\" is refused by " + device +
+                    ": " + reason);
 }
 
 template <typename Result, typename Raw, typename Arguments>

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -136,6 +137,55 @@ std::vector<Program::Uniform> read_uniforms(EntryPoints& gl, GLuint program) {
     return uniforms;
 }
 
+/// Does the text declare a uniform of this name? The text is before the preprocessor, so ask only of active ones.
+bool declares_uniform(std::string_view text, std::string_view name) {
+    const auto is_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+    for (std::size_t at = text.find("uniform "); at != text.npos; at = text.find("uniform ", at + 1)) {
+        const std::string_view declaration = text.substr(at, text.find(';', at) - at);
+        const std::size_t found = declaration.rfind(name);
+        if (found == declaration.npos || found == 0 || is_word(declaration[found - 1])) continue;
+        const std::size_t end = found + name.size();
+        if (end == declaration.size() || !is_word(declaration[end])) return true;
+    }
+    return false;
+}
+
+/// What one stage of a linked program takes of the limits. Every uniform counts whole rows: an upper bound.
+struct StageUse {
+    int vectors = 0;
+    int samplers = 0;
+};
+
+StageUse stage_use(const std::vector<Program::Uniform>& uniforms, std::string_view text) {
+    StageUse use;
+    for (const Program::Uniform& uniform : uniforms) {
+        if (!declares_uniform(text, uniform.name)) continue;
+        const bool is_sampler =
+            uniform.type == GL_SAMPLER_2D || uniform.type == GL_SAMPLER_CUBE || uniform.type == GL_SAMPLER_3D;
+        if (is_sampler) use.samplers += uniform.size;
+        else use.vectors += uniform.size * (uniform.type == GL_FLOAT_MAT4 ? 4 : uniform.type == GL_FLOAT_MAT3 ? 3 : 1);
+    }
+    return use;
+}
+
+/// A driver links what a poorer device would not: the limits of `caps` are held here.
+void expect_within_limits(const Caps& caps, const ProgramDescription& description,
+                          const std::vector<Program::Uniform>& uniforms, const StageText& vertex,
+                          const StageText& fragment) {
+    const StageUse in_vertex = stage_use(uniforms, vertex.text);
+    const StageUse in_fragment = stage_use(uniforms, fragment.text);
+    const auto expect_limit = [&](int used, int limit, const char* what) {
+        if (used <= limit) return;
+        throw Error(Fault::context, fmt::format("{} takes {} {} and {} has {}; use a lower --tier or another --device",
+                                                variant(description), used, what, caps.device, limit));
+    };
+    expect_limit(in_vertex.vectors, caps.max_vertex_uniform_vectors, "vertex uniform vectors");
+    expect_limit(in_fragment.vectors, caps.max_fragment_uniform_vectors, "fragment uniform vectors");
+    expect_limit(in_vertex.samplers, caps.max_vertex_samplers, "vertex samplers");
+    expect_limit(in_fragment.samplers, caps.max_fragment_samplers, "fragment samplers");
+    expect_limit(in_vertex.samplers + in_fragment.samplers, caps.max_combined_samplers, "samplers together");
+}
+
 /// Takes away what an attempt left in glGetError, so that nobody takes it for his own.
 bool had_error(EntryPoints& gl) {
     bool had = false;
@@ -174,6 +224,7 @@ Program& ProgramCache::get(const ProgramDescription& description) {
     }
     label(gl_, program->program_, description.name.c_str());
     program->uniforms_ = read_uniforms(gl_, program->name());
+    expect_within_limits(caps_, description, program->uniforms_, vertex, fragment);
     programs_.push_back(std::move(program));
     by_key_[key] = programs_.back().get();
     return *programs_.back();

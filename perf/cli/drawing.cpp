@@ -90,7 +90,7 @@ DrawnScene draw_with_options(GraphicsDevice& device, const std::string& scene, c
 int verdict(const DrawnScene& drawn) {
     int code = 0;
     const auto fail = [&](const std::string& sentence) {
-        fmt::print(stderr, "failed: {}\n", sentence);
+        complain("failed: " + sentence + "\n");
         code = 1;
     };
     for (const perf::BudgetLine& line : drawn.budget.lines) {

@@ -130,6 +130,9 @@ void print_findings(const Findings& found) {
     perf::TextTable formats({{"target format"}, {"renders, by drawing"}, {"B/pixel", perf::Align::right}});
     for (int index = 0; index < gl::kPixelFormatCount; ++index) {
         const auto format = static_cast<gl::PixelFormat>(index);
+        if (format == gl::PixelFormat::srgb8_alpha8) {
+            continue;  // for textures alone: never drawn to
+        }
         formats.add_row({gl::name(format), yes_no(caps.renders[static_cast<std::size_t>(index)]),
                          std::to_string(gl::bytes_per_pixel(format))});
     }

@@ -23,7 +23,7 @@ namespace {
 constexpr int kInterrupted = 130;  // 128 + SIGINT, as shells count
 
 int fail(int code, const std::string& sentence) {
-    fmt::print(stderr, "halfframe: {}\n", sentence);
+    complain("halfframe: " + sentence + "\n");
     return code;
 }
 
@@ -82,14 +82,16 @@ int run(int argument_count, char** arguments) {
     app.allow_extras();
     std::vector<std::unique_ptr<Command>> commands;
     for (const auto make : {make_render_command, make_report_command, make_plan_command, make_info_command,
-                            make_effects_command, make_scenes_command}) {
+                            make_effects_command, make_scenes_command, make_accuracy_command}) {
         commands.push_back(make(app));
         app.get_subcommand(commands.back()->name())->allow_extras();
     }
     try {
         app.parse(argument_count, arguments);
     } catch (const CLI::Success& done) {  // --help and --version
-        return app.exit(done);
+        const int code = app.exit(done);
+        expect_output_written();
+        return code;
     } catch (const CLI::ParseError& error) {
         refuse_leftovers(app);
         throw Error(Fault::usage, std::string(error.what()) + "; see --help");
@@ -102,7 +104,7 @@ int run(int argument_count, char** arguments) {
             return code;
         }
     }
-    fmt::print(stderr, "{}", app.help());
+    complain(app.help());
     return fail(static_cast<int>(Fault::usage), "no command was given");
 }
 
@@ -118,6 +120,8 @@ int main(int argument_count, char** arguments) {
         return cli::fail(cli::kInterrupted, "interrupted");
     } catch (const Error& error) {
         return cli::fail(error.exit_code(), error.what());
+    } catch (const MaskedUse& refused) {
+        return cli::fail(static_cast<int>(Fault::check), refused.what());
     } catch (const platform::ContextError& error) {
         return cli::fail(static_cast<int>(Fault::context), error.what());
     } catch (const std::bad_alloc&) {

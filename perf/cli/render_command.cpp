@@ -1,5 +1,6 @@
 // halfframe render SCENE: one picture and what it cost.
 #include <filesystem>
+#include <set>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -75,9 +76,14 @@ private:
         if (!output_.empty() && !wants_exr() && !output_.ends_with(".png")) {
             throw Error(Fault::usage, fmt::format("-o {}: the name must end in .png or .exr", output_));
         }
+        std::set<std::filesystem::path> seen;
         for (const std::string& file : {output_, trace_, html_}) {
-            if (!file.empty()) {
-                perf::expect_can_write(file);
+            if (file.empty()) {
+                continue;
+            }
+            perf::expect_can_write(file);
+            if (!seen.insert(std::filesystem::weakly_canonical(file)).second) {
+                throw Error(Fault::usage, fmt::format("{} is named twice; give each output a file of its own", file));
             }
         }
     }

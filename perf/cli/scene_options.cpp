@@ -211,12 +211,15 @@ void check_options(const SceneOptions& options) {
         if (options.target.empty()) {
             throw Error(Fault::usage, "--eye needs --target X,Y,Z, the point that is looked at");
         }
-        if (parse_triple(options.eye, "--eye") == parse_triple(options.target, "--target")) {
-            throw Error(Fault::usage, "--eye and --target are the same point, so there is no direction to look in");
+        const float away = glm::distance(parse_triple(options.eye, "--eye"), parse_triple(options.target, "--target"));
+        if (!(away > 1e-6f) || !std::isfinite(away)) {
+            throw Error(Fault::usage,
+                        fmt::format("--eye {} and --target {} are {}, so there is no direction to look in", options.eye,
+                                    options.target, away > 1.0f ? "too far apart" : "the same point"));
         }
     }
-    if (options.fov_y_deg && !(*options.fov_y_deg > 0.0 && *options.fov_y_deg < 180.0)) {
-        throw Error(Fault::usage, fmt::format("--fov-y {}: degrees above 0 and below 180", *options.fov_y_deg));
+    if (options.fov_y_deg && !(*options.fov_y_deg >= 0.1 && *options.fov_y_deg <= 179.0)) {
+        throw Error(Fault::usage, fmt::format("--fov-y {}: degrees from 0.1 to 179", *options.fov_y_deg));
     }
     Scene scene;
     View view;

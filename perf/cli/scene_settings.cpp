@@ -73,8 +73,12 @@ void apply(const Setting& setting, Scene& scene, View& view, Wishes& wishes) {
         }
     } else if (setting.key == "ambient") {
         scene.ambient = parse_color(setting);
-    } else if (setting.key.starts_with("sky.")) {
+    } else if (setting.key.starts_with("sky.") && setting.key != "sky.on") {
         const glm::vec3 color = parse_color(setting);
+        if (glm::any(glm::greaterThan(color, glm::vec3(1.0f)))) {
+            throw Error(Fault::usage,
+                        fmt::format("--set {}={}: display values are 0 to 1", setting.key, setting.value));
+        }
         Sky sky = scene.sky.value_or(Sky{});
         (setting.key == "sky.zenith" ? sky.zenith : setting.key == "sky.horizon" ? sky.horizon : sky.ground) = color;
         scene.sky = sky;

@@ -8,7 +8,6 @@
 #include <cstdio>
 #include <system_error>
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "engine/error.h"
@@ -21,11 +20,24 @@ volatile sig_atomic_t interrupted = 0;
 
 void on_signal(int) { interrupted = 1; }
 
+[[noreturn]] void refuse_output(int error) {
+    const std::string reason = error != 0 ? std::generic_category().message(error) : "an earlier part was lost";
+    throw Error(Fault::environment,
+                "cannot write standard output (" + reason + "); free some space or send it elsewhere");
+}
+
 }  // namespace
 
-void notice(const std::string& sentence) { fmt::print(stderr, "notice: {}\n", sentence); }
+void complain(const std::string& text) { std::fwrite(text.data(), 1, text.size(), stderr); }
 
-void print(const std::string& text) { std::fwrite(text.data(), 1, text.size(), stdout); }
+void notice(const std::string& sentence) { complain("notice: " + sentence + "\n"); }
+
+void print(const std::string& text) {
+    errno = 0;
+    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) {
+        refuse_output(errno);
+    }
+}
 
 void print_json(const nlohmann::ordered_json& json) {
     print(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
@@ -34,8 +46,7 @@ void print_json(const nlohmann::ordered_json& json) {
 void expect_output_written() {
     errno = 0;
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-        throw Error(Fault::environment, "cannot write standard output (" + std::generic_category().message(errno) +
-                                            "); free some space or send it elsewhere");
+        refuse_output(errno);
     }
 }
 
@@ -45,7 +56,7 @@ Progress::~Progress() { clear(); }
 
 void Progress::show(const std::string& step) {
     if (on_terminal_) {
-        fmt::print(stderr, "\r\033[K{} ...", step);
+        complain("\r\033[K" + step + " ...");
         std::fflush(stderr);
         shown_ = true;
     }
@@ -53,7 +64,7 @@ void Progress::show(const std::string& step) {
 
 void Progress::clear() {
     if (shown_) {
-        fmt::print(stderr, "\r\033[K");
+        complain("\r\033[K");
         std::fflush(stderr);
         shown_ = false;
     }

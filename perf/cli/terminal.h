@@ -7,6 +7,8 @@
 
 namespace halfframe::cli {
 
+/// Writes to standard error and never fails: where nobody reads, there is nobody to tell.
+void complain(const std::string& text);
 /// "notice: ..." on standard error.
 void notice(const std::string& sentence);
 

@@ -43,7 +43,7 @@ CallReport call_report(const gl::CallLedger& ledger) {
 
 std::size_t bytes_written(const FramePlan& plan, const Pass& pass) {
     std::size_t bytes = 0;
-    if (pass.color) {
+    if (pass.color && pass.writes_color) {
         bytes += plan.targets[static_cast<std::size_t>(*pass.color)].bytes();
     }
     if (pass.depth && pass.writes_depth) {

@@ -43,6 +43,7 @@ Json pass_json(const FramePlan& plan, const Pass& pass) {
             {"reads", reads},
             {"color", target_name(plan, pass.color)},
             {"depth", target_name(plan, pass.depth)},
+            {"writes_color", pass.writes_color},
             {"writes_depth", pass.writes_depth},
             {"start_color", name(pass.start_color)},
             {"start_depth", name(pass.start_depth)},
@@ -123,6 +124,9 @@ Json plan_json(const FramePlan& plan) {
 Json caps_json(const gl::Caps& caps) {
     Json renders = Json::object();
     for (int index = 0; index < gl::kPixelFormatCount; ++index) {
+        if (static_cast<gl::PixelFormat>(index) == gl::PixelFormat::srgb8_alpha8) {
+            continue;  // for textures alone: never drawn to
+        }
         renders[gl::name(static_cast<gl::PixelFormat>(index))] = caps.renders[static_cast<std::size_t>(index)];
     }
     const auto precision = [](const gl::PrecisionFormat& format) {

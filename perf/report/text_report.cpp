@@ -24,7 +24,7 @@ std::string target_names(const FramePlan& plan, const std::vector<int>& targets)
 std::string writes_text(const FramePlan& plan, const Pass& pass) {
     std::string text;
     if (pass.color) {
-        text = plan.targets[static_cast<std::size_t>(*pass.color)].name;
+        text = plan.targets[static_cast<std::size_t>(*pass.color)].name + (pass.writes_color ? "" : " (start only)");
     }
     if (pass.depth) {
         text += (text.empty() ? "" : ", ") + plan.targets[static_cast<std::size_t>(*pass.depth)].name +

@@ -165,6 +165,7 @@ void Sweep::draw_all(const harness::GroundWish& wish, const std::vector<Tier>& t
     fmt::print("{} files: {} drawn at {} tiers, {} refused, {} not listed\n", files.size(), drawn, tiers.size(),
                refused, unlisted);
     EXPECT_GT(drawn, 0);
+    renderers_.clear();  // before the ground they stand on
 }
 
 TEST_F(Sweep, EglEs3) { draw_all({.backend = platform::Backend::egl}, {Tier::low, Tier::console, Tier::reference}); }

@@ -6,5 +6,7 @@
 namespace halfframe::tests {
 
 [[nodiscard]] std::uint64_t heap_allocations();
+/// False under AddressSanitizer, which owns operator new.
+[[nodiscard]] bool heap_is_counted();
 
 }  // namespace halfframe::tests

@@ -67,7 +67,13 @@ TEST(Usage, wrong_values_are_2) {
         {{"render", "test_room", "--set", "ambient=1,2"}, "three numbers"},
         {{"render", "test_room", "--eye", "1,2,3"}, "--target"},
         {{"render", "test_room", "--eye", "-1,2,3", "--target", "-1,2,3"}, "same point"},
-        {{"render", "test_room", "--fov-y", "180"}, "below 180"},
+        {{"render", "test_room", "--fov-y", "180"}, "0.1 to 179"},
+        {{"render", "test_room", "--fov-y", "179.9999999"}, "0.1 to 179"},
+        {{"render", "test_room", "--eye", "1e-30,1,0", "--target", "0,1,0"}, "same point"},
+        {{"render", "test_room", "--eye", "3e38,1,0", "--target", "0,1,0"}, "too far apart"},
+        {{"render", "test_room", "--set", "tone_map.on=0", "--size", "8x8"}, "cannot be switched off"},
+        {{"render", "test_room", "--set", "sky.zenith=2,0,0"}, "0 to 1"},
+        {{"render", "test_room", "-o", "one.png", "--trace", "one.png"}, "named twice"},
         {{"render", "test_room", "-o", "picture.jpg"}, ".png or .exr"},
         {{"render", "test_room", "--measure", "-1"}, "--measure"},
         {{"render", "test_room", "a_second_scene"}, "too many"},
@@ -84,6 +90,30 @@ TEST(Usage, wrong_values_are_2) {
         EXPECT_EQ(result.code, 2) << line << "\n" << result.err;
         EXPECT_TRUE(contains(result.err, expected)) << line << "\n" << result.err;
         EXPECT_TRUE(result.out.empty()) << line << "\n" << result.out;
+    }
+}
+
+TEST(Usage, every_effect_can_be_switched_by_hand) {
+    for (const char* effect : {"surface", "depth_prepass", "sky"}) {
+        for (const char* on : {"0", "1"}) {
+            for (const char* scene : {"test_room", "empty"}) {
+                const std::string setting = std::string(effect) + ".on=" + on;
+                const ChildResult result = halfframe({"plan", scene, "--set", setting, "--size", "8x8"});
+                const bool nothing_to_show =
+                    std::string(scene) == "empty" && on[0] == '1' && std::string(effect) == "depth_prepass";
+                EXPECT_EQ(result.code, nothing_to_show ? 2 : 0) << scene << " --set " << setting << "\n" << result.err;
+            }
+        }
+    }
+    const ChildResult drawn = halfframe({"render", "furnace", "--set", "sky.on=1", "--size", "8x8", "--measure", "0"});
+    EXPECT_EQ(drawn.code, 0) << drawn.err;
+}
+
+TEST(Usage, nobody_has_to_listen_to_complaints) {
+    for (const char* redirection : {"2>&-", "2>/dev/full"}) {
+        const std::string line = "'" + kCommand + "' render no_such_scene " + redirection;
+        const ChildResult result = run_child("/bin/sh", {"-c", line});
+        EXPECT_EQ(result.code, 3) << line;
     }
 }
 
@@ -113,7 +143,8 @@ TEST(Usage, help_explains_every_option_and_the_exit_codes) {
         {"plan", {"--size", "--tier", "--device", "--json"}},
         {"info", {"--context", "--device", "--json"}},
         {"effects", {"--json"}},
-        {"scenes", {"--json"}}};
+        {"scenes", {"--json"}},
+        {"accuracy", {"--json"}}};
     for (const auto& [command, options] : commands) {
         const ChildResult help = halfframe({command, "--help"});
         EXPECT_EQ(help.code, 0) << command;

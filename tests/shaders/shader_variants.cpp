@@ -135,6 +135,7 @@ std::vector<std::vector<gl::Insertion>> every_insertion_set(Tier tier, std::span
     constexpr std::array kStorages = {gl::PixelFormat::rgba32f, gl::PixelFormat::rgba16f, gl::PixelFormat::r11g11b10f,
                                       gl::PixelFormat::rgb10_a2, gl::PixelFormat::rgba8};
     const gl::Caps caps = rich_caps();
+    const FramePlan nothing_planned;  // no insertion depends on the decisions of other effects
     std::vector<std::vector<gl::Insertion>> sets;
     const auto keep = [&](const std::vector<gl::Insertion>& set) {
         const auto equal = [&](const auto& other) { return same(set, other); };
@@ -147,7 +148,7 @@ std::vector<std::vector<gl::Insertion>> every_insertion_set(Tier tier, std::span
         for (const gl::PixelFormat storage : kStorages) {
             std::vector<gl::Insertion> together;
             for (const EffectCard* card : cards) {
-                const PlanContext context{scene, view, caps, tier, Arithmetic::half, storage};
+                const PlanContext context{scene, view, caps, tier, Arithmetic::half, storage, nothing_planned};
                 if (card->insertions == nullptr || !card->called_for(context).called_for) continue;
                 const auto alone = card->insertions(context);
                 keep({alone.begin(), alone.end()});

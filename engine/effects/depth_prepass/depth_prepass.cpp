@@ -27,6 +27,8 @@ constexpr std::array kShaders = {
     ShaderVariant{"depth_prepass/depth_prepass.vert", "depth_prepass/depth_prepass.frag", ""}};
 
 Demand called_for(const PlanContext& context) {
+    const EffectDecision* surface = context.plan.find("surface");
+    if (surface == nullptr || !surface->in) return {false, "nothing is shaded, so there is nothing to save"};
     const double cover = opaque_cover(context.scene, context.view);
     if (cover >= kPrepassCover) {
         return {true, fmt::format("opaque surfaces cover the picture {:.1f} times (called for from {:.1f} on)", cover,
@@ -43,6 +45,7 @@ void add_passes(const PlanContext&, FramePlan& plan) {
     pass.order = PassOrder::depth;
     pass.color = plan.add_scene_color();
     pass.depth = plan.add_scene_depth();
+    pass.writes_color = false;  // bound, because depth alone is not complete on every ES 2.0 device
     pass.writes_depth = true;
     plan.passes.push_back(pass);
 }

@@ -55,7 +55,7 @@ public:
         set(renderer, ray_right_, world_from_view[0] * (spread / view.clip_from_view[0][0]));
         set(renderer, ray_up_, world_from_view[1] * (spread / view.clip_from_view[1][1]));
         set(renderer, ray_forward_, -world_from_view[2]);
-        const Sky& sky = *renderer.scene().sky;
+        const Sky sky = renderer.scene().sky.value_or(Sky{});  // none: switched on by hand
         set(renderer, zenith_, sky.zenith);
         set(renderer, horizon_, sky.horizon);
         set(renderer, ground_, sky.ground);

@@ -25,7 +25,7 @@ Demand called_for(const PlanContext& context) {
 }
 
 void add_passes(const PlanContext& context, FramePlan& plan) {
-    if (holds_display_values(context.storage)) return;
+    if (holds_display_values(context.storage) || plan.passes.empty()) return;
     Pass pass;
     pass.name = "tone_map";
     pass.effect = "tone_map";

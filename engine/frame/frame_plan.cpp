@@ -20,9 +20,35 @@ constexpr std::array kLadder = {PixelFormat::rgba16f, PixelFormat::r11g11b10f, P
 
 bool renders(const gl::Caps& caps, PixelFormat format) { return caps.renders[static_cast<std::size_t>(format)]; }
 
+/// A limit that a tier's shaders count on: the minimum of ES 2.0 for low, of ES 3.0 above (what the shader gates
+/// check).
+struct NeededLimit {
+    const char* what;
+    int gl::Caps::*has;
+    int low;
+    int above;
+};
+constexpr std::array kNeededLimits = {
+    NeededLimit{"vertex attributes", &gl::Caps::max_vertex_attributes, 8, 16},
+    NeededLimit{"vertex uniform vectors", &gl::Caps::max_vertex_uniform_vectors, 128, 256},
+    NeededLimit{"fragment uniform vectors", &gl::Caps::max_fragment_uniform_vectors, 16, 224},
+    NeededLimit{"varying vectors", &gl::Caps::max_varying_vectors, 8, 15},
+    NeededLimit{"fragment samplers", &gl::Caps::max_fragment_samplers, 8, 16},
+};
+
+std::optional<std::string> missing_limit(Tier tier, const gl::Caps& caps) {
+    for (const NeededLimit& limit : kNeededLimits) {
+        const int needed = tier == Tier::low ? limit.low : limit.above;
+        if (caps.*limit.has >= needed) continue;
+        return fmt::format("tier {} needs {} {} and {} has {}", name(tier), needed, limit.what, caps.device,
+                           caps.*limit.has);
+    }
+    return std::nullopt;
+}
+
 /// Why `tier` cannot run on this device, or nothing.
 std::optional<std::string> tier_obstacle(Tier tier, const gl::Caps& caps) {
-    if (tier == Tier::low) return std::nullopt;
+    if (tier == Tier::low) return missing_limit(tier, caps);
     if (caps.es_version < 30) {
         return fmt::format("tier {} needs OpenGL ES 3.0 and {} is ES {}.{}", name(tier), caps.device,
                            caps.es_version / 10, caps.es_version % 10);
@@ -31,11 +57,15 @@ std::optional<std::string> tier_obstacle(Tier tier, const gl::Caps& caps) {
         return fmt::format("tier reference needs a float target (EXT_color_buffer_float) and {} renders none",
                            caps.device);
     }
-    return std::nullopt;
+    return missing_limit(tier, caps);
 }
 
 Tier chosen_tier(const Wishes& wishes, const gl::Caps& caps) {
-    if (!wishes.tier) return tier_obstacle(Tier::console, caps) ? Tier::low : Tier::console;
+    if (!wishes.tier && !tier_obstacle(Tier::console, caps)) return Tier::console;
+    if (const auto obstacle = tier_obstacle(Tier::low, caps)) {
+        throw Error(Fault::usage, *obstacle + ", so no tier runs there; use another --device");
+    }
+    if (!wishes.tier) return Tier::low;
     if (const auto obstacle = tier_obstacle(*wishes.tier, caps)) {
         throw Error(Fault::usage, *obstacle + "; use --tier low, or another --device");
     }

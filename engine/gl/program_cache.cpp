@@ -150,40 +150,33 @@ bool declares_uniform(std::string_view text, std::string_view name) {
     return false;
 }
 
-/// What one stage of a linked program takes of the limits. Every uniform counts whole rows: an upper bound.
-struct StageUse {
-    int vectors = 0;
+/// Samplers one stage of a linked program uses.
+int samplers_in(const std::vector<Program::Uniform>& uniforms, std::string_view text) {
     int samplers = 0;
-};
-
-StageUse stage_use(const std::vector<Program::Uniform>& uniforms, std::string_view text) {
-    StageUse use;
     for (const Program::Uniform& uniform : uniforms) {
-        if (!declares_uniform(text, uniform.name)) continue;
         const bool is_sampler =
             uniform.type == GL_SAMPLER_2D || uniform.type == GL_SAMPLER_CUBE || uniform.type == GL_SAMPLER_3D;
-        if (is_sampler) use.samplers += uniform.size;
-        else use.vectors += uniform.size * (uniform.type == GL_FLOAT_MAT4 ? 4 : uniform.type == GL_FLOAT_MAT3 ? 3 : 1);
+        if (is_sampler && declares_uniform(text, uniform.name)) samplers += uniform.size;
     }
-    return use;
+    return samplers;
 }
 
-/// A driver links what a poorer device would not: the limits of `caps` are held here.
+/// A driver links what a poorer device would not: the sampler limits of `caps` are held here. Uniform vectors and
+/// varyings cannot be told apart by stage from outside; the plan refuses a device that has fewer than a tier promises
+/// to live with.
 void expect_within_limits(const Caps& caps, const ProgramDescription& description,
                           const std::vector<Program::Uniform>& uniforms, const StageText& vertex,
                           const StageText& fragment) {
-    const StageUse in_vertex = stage_use(uniforms, vertex.text);
-    const StageUse in_fragment = stage_use(uniforms, fragment.text);
+    const int in_vertex = samplers_in(uniforms, vertex.text);
+    const int in_fragment = samplers_in(uniforms, fragment.text);
     const auto expect_limit = [&](int used, int limit, const char* what) {
         if (used <= limit) return;
         throw Error(Fault::context, fmt::format("{} takes {} {} and {} has {}; use a lower --tier or another --device",
                                                 variant(description), used, what, caps.device, limit));
     };
-    expect_limit(in_vertex.vectors, caps.max_vertex_uniform_vectors, "vertex uniform vectors");
-    expect_limit(in_fragment.vectors, caps.max_fragment_uniform_vectors, "fragment uniform vectors");
-    expect_limit(in_vertex.samplers, caps.max_vertex_samplers, "vertex samplers");
-    expect_limit(in_fragment.samplers, caps.max_fragment_samplers, "fragment samplers");
-    expect_limit(in_vertex.samplers + in_fragment.samplers, caps.max_combined_samplers, "samplers together");
+    expect_limit(in_vertex, caps.max_vertex_samplers, "vertex samplers");
+    expect_limit(in_fragment, caps.max_fragment_samplers, "fragment samplers");
+    expect_limit(in_vertex + in_fragment, caps.max_combined_samplers, "samplers together");
 }
 
 /// Takes away what an attempt left in glGetError, so that nobody takes it for his own.

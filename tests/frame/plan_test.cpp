@@ -85,6 +85,16 @@ TEST(Plan, RefusesWhatTheDeviceCannot) {
     EXPECT_NE(refusal(square_scene(), {.census = true}, poor_caps()).find("RGBA32F"), std::string::npos);
 }
 
+TEST(Plan, RefusesADevicePoorerThanAnyTier) {
+    gl::Caps caps = poor_caps();
+    caps.max_fragment_uniform_vectors = 15;
+    EXPECT_NE(refusal(square_scene(), {}, caps).find("needs 16 fragment uniform vectors"), std::string::npos);
+    caps = able_caps();
+    caps.max_fragment_samplers = 12;
+    EXPECT_EQ(plan(square_scene(), {}, caps).tier, Tier::low) << "ES 3.0 with fewer than 16 samplers is no ES 3.0";
+    EXPECT_NE(refusal(square_scene(), {.tier = Tier::console}, caps).find("16 fragment samplers"), std::string::npos);
+}
+
 TEST(Plan, ArithmeticIsFullOnSoftwareAndHalfElsewhere) {
     gl::Caps caps = able_caps();
     EXPECT_EQ(plan(square_scene(), {}, caps).arithmetic, Arithmetic::half);

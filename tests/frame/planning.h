@@ -12,6 +12,11 @@ inline gl::Caps able_caps() {
     caps.es_version = 30;
     caps.max_texture_size = 4096;
     caps.max_renderbuffer_size = 4096;
+    caps.max_vertex_attributes = 16;
+    caps.max_vertex_uniform_vectors = 256;
+    caps.max_fragment_uniform_vectors = 224;
+    caps.max_varying_vectors = 15;
+    caps.max_fragment_samplers = 16;
     caps.sized_formats = true;
     caps.srgb_textures = true;
     caps.renders.fill(true);

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "content/content.h"
+#include "engine/frame/frame_plan.h"
 #include "engine/frame/scene.h"
 
 namespace halfframe::shaders {

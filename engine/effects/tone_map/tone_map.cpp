@@ -15,7 +15,7 @@ constexpr std::array kInsertions = {
     gl::Insertion{"surface.color", "tone_map/tone_map.glsl", "color = tone_map(color);"}};
 
 Demand called_for(const PlanContext& context) {
-    const bool draws = !context.scene.surfaces.empty() || context.scene.sky.has_value();
+    const bool draws = !context.scene.surfaces.empty() || context.scene.sky.has_value() || !context.plan.passes.empty();
     if (!draws) return {false, "nothing is lit: the scene has no surfaces and no sky"};
     if (!holds_display_values(context.storage))
         return {true, std::string("scene_color holds linear light (") + name(context.storage) + ")"};

@@ -41,11 +41,12 @@ float blinn_lobe(FULL vec3 n, FULL vec3 h, float power) {
 
 // Smooth fall to 0 at the light's range; 1 at 1 m. distance_squared [m^2], inverse_range_squared [1/m^2].
 // Window: B. Karis, "Real Shading in Unreal Engine 4", SIGGRAPH 2013. FULL: a distance of 256 m squared overflows half.
-// Nearer than 1/316 of the range it grows no more, so that a lamp inside a surface stays finite in any unit of length.
+// Nearer than 1/316 of the range it grows no more, and never past 60000, so that a lamp inside a surface stays finite in any
+// unit of length, in half too.
 float distance_falloff(FULL float distance_squared, FULL float inverse_range_squared) {
     FULL float ratio = distance_squared * inverse_range_squared;
     FULL float window = clamp(1.0 - ratio * ratio, 0.0, 1.0);
-    return window * window * inverse_range_squared / max(ratio, 1e-5);
+    return min(window * window * inverse_range_squared / max(ratio, 1e-5), 60000.0);
 }
 
 // Spot cone: 0 outside, 1 inside, smooth between. cos_scale = 1 / (cos inner - cos outer).

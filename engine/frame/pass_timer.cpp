@@ -15,7 +15,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kHeavySize = 384;    // at most; pixels a side: about 40 ms on two llvmpipe threads, under 1 ms on a phone
+constexpr int kHeavySize = 384;    // at most; pixels a side: about 10 ms on two idle llvmpipe threads, under 1 ms on a phone
 constexpr double kBelieved = 0.8;  // of the wall time of the same draw, in the worst of three: less is something else
 constexpr GLuint64 kFenceWaitNs = 2'000'000'000;
 constexpr GLenum kTimeElapsed = 0x88BF;  // GL_TIME_ELAPSED, EXT_disjoint_timer_query

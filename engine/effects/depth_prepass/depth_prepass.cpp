@@ -1,7 +1,8 @@
 // Card, demand and drawing of the depth prepass.
 #include "engine/effects/depth_prepass/depth_prepass.h"
 
-#include <algorithm>
+#include <optional>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -12,11 +13,13 @@
 namespace halfframe {
 
 double opaque_cover(const Scene& scene, const View& view) {
+    std::vector<std::optional<Box>> boxes(scene.meshes.size());  // surfaces share meshes: each is walked once
     double cover = 0.0;
     for (const Surface& surface : scene.surfaces) {
         if (scene.materials[static_cast<std::size_t>(surface.material)].alpha_mode != AlphaMode::opaque) continue;
-        const Box box = local_box(scene.meshes[static_cast<std::size_t>(surface.mesh)]);
-        cover += screen_fraction(box, clip_from_local(view, surface.world_from_local));
+        std::optional<Box>& box = boxes[static_cast<std::size_t>(surface.mesh)];
+        if (!box) box = local_box(scene.meshes[static_cast<std::size_t>(surface.mesh)]);
+        cover += screen_fraction(*box, clip_from_local(view, surface.world_from_local));
     }
     return cover;
 }

@@ -54,7 +54,6 @@ private:
 
     const Light* sun_ = nullptr;
     std::vector<Variant> variants_;
-    std::vector<gl::Program*> programs_;
     std::vector<Draw> opaque_;
     std::vector<Draw> transparent_;
     struct Order {

@@ -51,15 +51,25 @@ glm::mat4 world_from_view_looking(const glm::vec3& eye, const glm::vec3& forward
     return {glm::vec4(right, 0.0f), glm::vec4(true_up, 0.0f), glm::vec4(-forward, 0.0f), glm::vec4(eye, 1.0f)};
 }
 
-/// Near and far around what of `box` lies before the eye.
-void set_depth_range(Camera& camera, const glm::vec3& eye, const glm::vec3& forward, const Box& box) {
+/// Least and greatest distance of the box's corners along `forward` [m].
+struct DepthExtent {
     float nearest = 1e30f;
     float farthest = -1e30f;
+};
+
+DepthExtent depth_extent(const glm::vec3& eye, const glm::vec3& forward, const Box& box) {
+    DepthExtent extent;
     for (const glm::vec3& corner : corners(box)) {
         const float depth = glm::dot(corner - eye, forward);
-        nearest = std::min(nearest, depth);
-        farthest = std::max(farthest, depth);
+        extent.nearest = std::min(extent.nearest, depth);
+        extent.farthest = std::max(extent.farthest, depth);
     }
+    return extent;
+}
+
+/// Near and far around what of `box` lies before the eye.
+void set_depth_range(Camera& camera, const glm::vec3& eye, const glm::vec3& forward, const Box& box) {
+    const auto [nearest, farthest] = depth_extent(eye, forward, box);
     const float size = glm::length(box.high - box.low);
     camera.far_m = std::max(farthest * 1.05f, size * 0.05f);
     camera.near_m = std::clamp(nearest * 0.9f, camera.far_m * kSmallestNearOverFar, camera.far_m * 0.5f);
@@ -111,13 +121,7 @@ Camera tightened(const Camera& camera, const Box& scene_box) {
     if (scene_box.empty()) return camera;
     const glm::vec3 eye(camera.world_from_view[3]);
     const glm::vec3 forward = -glm::normalize(glm::vec3(camera.world_from_view[2]));
-    float nearest = 1e30f;
-    float farthest = -1e30f;
-    for (const glm::vec3& corner : corners(scene_box)) {
-        const float depth = glm::dot(corner - eye, forward);
-        nearest = std::min(nearest, depth);
-        farthest = std::max(farthest, depth);
-    }
+    const auto [nearest, farthest] = depth_extent(eye, forward, scene_box);
     Camera tight = camera;
     // A hundredth of air, so that what lies on the box is not cut by rounding.
     const float air = 0.01f * (farthest - nearest) + 1e-6f * std::abs(farthest);

@@ -7,12 +7,10 @@
 #include "engine/error.h"
 #include "engine/frame/effect_card.h"
 #include "engine/gl/entry_points.h"
+#include "shaders_es/common/packing_limits.h"
 
 namespace halfframe::perf {
 namespace {
-
-/// RGB10_A2 holds sqrt(light / 8): SCENE_COLOR_RANGE of shaders_es/common/packing.glsl.
-constexpr float kPackedRange = 8.0f;
 
 void expect_no_gl_error(Renderer& renderer, const std::string& scene, const char* step) {
     if (const std::string error = renderer.first_gl_error(); !error.empty()) {
@@ -32,7 +30,7 @@ FramePlan checked_plan(const Scene& scene, const View& view, const Wishes& wishe
 FloatPicture read_linear(Renderer& renderer, std::vector<std::string>& notices) {
     const FramePlan& plan = renderer.plan();
     const int scene_color = plan.target_index("scene_color");
-    if (scene_color < 0 || !plan.hdr()) {
+    if (scene_color < 0 || holds_display_values(plan.storage)) {
         notices.push_back("this plan has no linear target, so the .exr holds display values");
         return renderer.read_target(scene_color < 0 ? plan.display : scene_color);
     }
@@ -40,7 +38,7 @@ FloatPicture read_linear(Renderer& renderer, std::vector<std::string>& notices) 
     if (plan.storage == gl::PixelFormat::rgb10_a2) {
         for (std::size_t value = 0; value < picture.rgba.size(); ++value) {
             if (value % 4 != 3) {  // alpha is not light
-                picture.rgba[value] *= picture.rgba[value] * kPackedRange;
+                picture.rgba[value] *= picture.rgba[value] * static_cast<float>(SCENE_COLOR_RANGE);
             }
         }
     }

@@ -74,6 +74,8 @@ struct EffectCard {
     std::string_view called_for_by;  ///< what in a scene calls for it, in words
     std::string_view budget_row;     ///< a row of the budget; its own name or a shared group's
     std::array<TierCard, kTierCount> tiers;
+    /// Why it cannot be switched off by hand where the scene calls for it; empty: it can.
+    std::string_view indispensable;
 
     Demand (*called_for)(const PlanContext&) = nullptr;
     /// Pass effects: appends targets and passes. Runs only when called for.

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "engine/error.h"
+#include "shaders_es/common/packing_limits.h"
 #include "shaders_es/tone_map/tone_map_limits.h"
 
 namespace halfframe {
@@ -108,7 +109,9 @@ PixelFormat chosen_storage(const Wishes& wishes, Tier tier, const gl::Caps& caps
 Tier tier_for(std::string_view effect, Tier tier, const Wishes& wishes, const gl::Caps& caps) {
     for (const auto& [wished_effect, wished] : wishes.effect_tiers) {
         if (wished_effect != effect) continue;
-        if (const auto obstacle = tier_obstacle(wished, caps)) throw Error(Fault::usage, *obstacle);
+        if (const auto obstacle = tier_obstacle(wished, caps)) {
+            throw Error(Fault::usage, fmt::format("{}; use --tier {}=low, or another --device", *obstacle, effect));
+        }
         tier = wished;
     }
     return tier;
@@ -147,7 +150,7 @@ glm::vec4 background_in(const glm::vec3& display, PixelFormat storage) {
         const float y = std::clamp(display[i], 0.0f, 1.0f);
         light[i] = static_cast<float>(TONE_MAP_A * y / (TONE_MAP_B - y));
         if (storage == PixelFormat::rgb10_a2) {  // packed as in shaders_es/common/packing.glsl
-            light[i] = static_cast<float>(std::sqrt(std::min(light[i] / TONE_MAP_RANGE, 1.0)));
+            light[i] = static_cast<float>(std::sqrt(std::min(light[i] / SCENE_COLOR_RANGE, 1.0)));
         }
     }
     return {light, 1.0f};
@@ -178,6 +181,10 @@ void decide(const EffectCard& card, const PlanContext& context, const Wishes& wi
     decision.in = demand.called_for;
     decision.why = demand.why;
     if (const auto on = switch_for(card.name, wishes); on && *on != demand.called_for) {
+        if (!*on && !card.indispensable.empty()) {
+            throw Error(Fault::usage, fmt::format("{} cannot be switched off: {}; leave {}.on out", card.name,
+                                                  card.indispensable, card.name));
+        }
         decision.in = *on;
         decision.why = fmt::format("switched {} by hand; by itself {}: {}", *on ? "on" : "off",
                                    demand.called_for ? "in" : "out", demand.why);
@@ -216,8 +223,6 @@ int FramePlan::target_index(std::string_view target) const {
     }
     return -1;
 }
-
-bool FramePlan::hdr() const { return !holds_display_values(storage); }
 
 int FramePlan::add_target(std::string_view target_name, gl::PixelFormat format) {
     if (const int index = target_index(target_name); index >= 0) return index;
@@ -259,18 +264,11 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Wishes& wishes,
         const Tier tier = tier_for(card->name, plan.tier, wishes, caps);
         decide(*card, {scene, view, caps, tier, plan.arithmetic, plan.storage, plan}, wishes, plan);
     }
-    const EffectDecision* tone_map = plan.find("tone_map");
-    if (tone_map != nullptr && !tone_map->in && switch_for("tone_map", wishes) && !plan.passes.empty()) {
-        throw Error(Fault::usage,
-                    "tone_map cannot be switched off: without it, light would be shown as if it were a display's "
-                    "values; leave tone_map.on out");
-    }
     std::ranges::stable_sort(plan.passes, {}, &Pass::order);
     const glm::vec4 background = background_in(scene.background, plan.storage);
     if (plan.display < 0 && !plan.passes.empty()) {
-        throw Error(Fault::usage,
-                    fmt::format("no effect brings {} to the display; leave tone_map on, or use --storage rgba8",
-                                name(plan.storage)));
+        throw Error(Fault::usage, fmt::format("no effect of this build brings {} to the display; use --storage rgba8",
+                                              name(plan.storage)));
     }
     if (plan.display < 0) {
         // Nothing that draws was called for: the picture is the background.

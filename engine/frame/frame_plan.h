@@ -85,7 +85,6 @@ struct FramePlan {
     [[nodiscard]] double bytes_per_pixel() const;
     [[nodiscard]] const EffectDecision* find(std::string_view effect) const;
     [[nodiscard]] int target_index(std::string_view target) const;  ///< -1: none
-    [[nodiscard]] bool hdr() const;  ///< scene_color holds linear light, so tone_map is a pass
 
     /// Index of the target called `target_name`, made with `format` at the size of the frame when it is new.
     int add_target(std::string_view target_name, gl::PixelFormat format);

@@ -88,6 +88,7 @@ const EffectCard kToneMap{
                   "no pass: surfaces map their own light, so translucents blend display values (a little too dark)"},
               TierCard{kShaders, "display", "one pass over the picture; whites from a light of 8"},
               TierCard{kShaders, "display", "as console, in highp from float targets"}},
+    .indispensable = "without it, light would be shown as if it were a display's values",
     .called_for = called_for,
     .add_passes = add_passes,
     .insertions = insertions,

@@ -1,6 +1,7 @@
 // A scene as plain data: no GL, no files. Lengths in metres, angles in radians, +Y up, right-handed.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -87,6 +88,7 @@ struct Light {
     float range_m = 10.0f;                   ///< falls smoothly to 0 here; point, spot
     float inner_cone_rad = 0.0f;             ///< spot: full inside this half angle
     float outer_cone_rad = 0.785398f;        ///< spot: dark outside this half angle
+    float radius_m = 0.0f;                   ///< of the shining sphere; 0: a point. point, spot
 };
 
 struct Camera {
@@ -97,6 +99,7 @@ struct Camera {
     float far_m = 1000.0f;
     bool orthographic = false;
     float half_height_m = 1.0f;  ///< orthographic
+    float exposure = 1.0f;       ///< linear factor before the tone map, > 0
 };
 
 /// A vertical gradient in *display* values (what a picture would show), taken back to linear light through the inverse
@@ -105,6 +108,21 @@ struct Sky {
     glm::vec3 zenith{0.16f, 0.20f, 0.28f};
     glm::vec3 horizon{0.45f, 0.50f, 0.58f};
     glm::vec3 ground{0.12f, 0.12f, 0.13f};
+};
+
+/// Light from everywhere, prefiltered (content/environment makes it): radiance smoothed by cosine-power lobes for
+/// reflections, and spherical harmonics for the diffuse part. Linear, >= 0, world axes.
+struct EnvironmentMap {
+    std::string name;
+    int size = 0;  ///< texels a side of level 0; a power of two
+    /// Level 0 is the sharpest; level l is max(size >> l, 1) texels a side. Each holds six faces, +X -X +Y -Y +Z -Z,
+    /// rows in the order glTexImage2D takes them. The chain ends at one texel, as ES 2.0 demands.
+    std::vector<std::vector<glm::vec3>> levels;
+    /// Power of the Phong lobe (R.l)^power that each level was smoothed with, for reporting.
+    std::vector<float> powers;
+    /// Light that a white Lambert surface of normal n shows: the sum of irradiance[i] times the polynomial 1, y, z, x,
+    /// xy, yz, 3 z^2 - 1, xz, x^2 - y^2 of n. Constants are folded in; windowed so that the sum is nowhere negative.
+    std::array<glm::vec3, 9> irradiance{};
 };
 
 /// What is drawn. An effect is simulated only if something here calls for it.
@@ -116,7 +134,8 @@ struct Scene {
     std::vector<Surface> surfaces;
     std::vector<Light> lights;
     std::vector<Camera> cameras;
-    glm::vec3 ambient{0.0f};                    ///< constant radiance from everywhere, linear
+    glm::vec3 ambient{0.0f};                    ///< constant radiance from everywhere, linear; added to `environment`
+    std::optional<EnvironmentMap> environment;  ///< none: nothing to reflect but `ambient`
     std::optional<Sky> sky;                     ///< none: the background is `background`
     glm::vec3 background{0.12f, 0.13f, 0.15f};  ///< display value behind everything
     std::vector<std::string> notices;           ///< what the loader left out, one sentence each

@@ -18,6 +18,9 @@ constexpr auto kEffects = std::to_array<const EffectCard*>({
 #ifndef HALFFRAME_WITHOUT_SKY
     &kSky,
 #endif
+#ifndef HALFFRAME_WITHOUT_TRANSPARENT
+    &kTransparent,
+#endif
 #ifndef HALFFRAME_WITHOUT_TONE_MAP
     &kToneMap,
 #endif

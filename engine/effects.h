@@ -8,6 +8,7 @@ namespace halfframe {
 extern const EffectCard kDepthPrepass;
 extern const EffectCard kSurface;
 extern const EffectCard kSky;
+extern const EffectCard kTransparent;
 extern const EffectCard kToneMap;
 
 }  // namespace halfframe

@@ -9,6 +9,12 @@
 
 namespace halfframe {
 
+void EffectWork::draw(Renderer&, const View&, int) { throw Mistake("an effect without passes was asked to draw one"); }
+
+int EffectWork::adopt(Renderer&, gl::Program&) { return -1; }
+
+void EffectWork::feed(Renderer&, const View&, int) {}
+
 namespace {
 
 bool lists_word(std::string_view words, std::string_view word) {
@@ -59,6 +65,10 @@ const EffectCard* find_effect(std::string_view effect_name) {
         if (card->name == effect_name) return card;
     }
     return nullptr;
+}
+
+std::string insertion_prefix(const ShaderVariant& variant) {
+    return std::string(variant.fragment.substr(0, variant.fragment.find('/'))) + ".";
 }
 
 }  // namespace halfframe

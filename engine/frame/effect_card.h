@@ -55,7 +55,8 @@ enum class EffectKind : std::uint8_t {
     material,  ///< adds code to other effects' shaders at named insertion points
 };
 
-/// Draws the passes of one effect. Made while preparing; draw() neither allocates nor creates.
+/// Draws the passes of one effect, and feeds the code it has inserted into others' programs. Made while preparing;
+/// draw() and feed() neither allocate nor create.
 class EffectWork {
 public:
     EffectWork() = default;
@@ -63,7 +64,12 @@ public:
     EffectWork& operator=(const EffectWork&) = delete;
     virtual ~EffectWork() = default;
     /// Draws pass `phase` of this effect; targets, viewport and start actions are set already.
-    virtual void draw(Renderer& renderer, const View& view, int phase) = 0;
+    virtual void draw(Renderer& renderer, const View& view, int phase);
+    /// `program` of another effect holds insertions of this one: claims their uniforms and gives their samplers texture
+    /// units. The number returned comes back in feed(). Runs while preparing; `program` is current.
+    virtual int adopt(Renderer& renderer, gl::Program& program);
+    /// An adopted program has become current: sets what its insertions read, binds their textures.
+    virtual void feed(Renderer& renderer, const View& view, int adopted);
 };
 
 struct EffectCard {
@@ -82,7 +88,8 @@ struct EffectCard {
     void (*add_passes)(const PlanContext&, FramePlan&) = nullptr;
     /// Material effects (and pass effects that also change other shaders): the code to add. Runs only when called for.
     std::span<const gl::Insertion> (*insertions)(const PlanContext&) = nullptr;
-    /// Pass effects: compiles and uploads what draw() needs. Runs only when the plan holds a pass of the effect.
+    /// Compiles and uploads what draw() and feed() need. Runs only when the plan holds a pass of the effect, or a
+    /// program that it inserts code into. May be nullptr for insertions that read nothing.
     std::unique_ptr<EffectWork> (*prepare)(Renderer&) = nullptr;
 };
 
@@ -91,6 +98,9 @@ struct EffectCard {
 [[nodiscard]] gl::ProgramDescription describe_variant(const EffectCard& card, const ShaderVariant& variant, Tier tier,
                                                       Arithmetic arithmetic, bool fragment_highp,
                                                       std::span<const std::string_view> defines);
+
+/// "surface." for a variant of surface/surface.frag: how the names of the insertion points in its text begin.
+[[nodiscard]] std::string insertion_prefix(const ShaderVariant& variant);
 
 /// The one explicit list, in the order the plan asks (engine/effects.cpp). Nothing registers itself.
 [[nodiscard]] std::span<const EffectCard* const> all_effects();

@@ -209,7 +209,9 @@ std::size_t FramePlan::target_bytes() const {
 
 double FramePlan::bytes_per_pixel() const {
     const double pixels = static_cast<double>(width) * static_cast<double>(height);
-    return pixels > 0.0 ? static_cast<double>(target_bytes()) / pixels : 0.0;
+    double bytes = 0.0;
+    for (const Target& target : targets) bytes += target.fixed_size ? 0.0 : static_cast<double>(target.bytes());
+    return pixels > 0.0 ? bytes / pixels : 0.0;
 }
 
 const EffectDecision* FramePlan::find(std::string_view effect) const {
@@ -225,9 +227,13 @@ int FramePlan::target_index(std::string_view target) const {
 }
 
 int FramePlan::add_target(std::string_view target_name, gl::PixelFormat format) {
-    if (const int index = target_index(target_name); index >= 0) return index;
-    if (census && !gl::is_depth(format)) format = PixelFormat::rgba32f;
-    targets.push_back({std::string(target_name), format, width, height});
+    return add_target({.name = std::string(target_name), .format = format, .width = width, .height = height});
+}
+
+int FramePlan::add_target(Target target) {
+    if (const int index = target_index(target.name); index >= 0) return index;
+    if (census && !gl::is_depth(target.format)) target.format = PixelFormat::rgba32f;
+    targets.push_back(std::move(target));
     return static_cast<int>(targets.size()) - 1;
 }
 
@@ -323,7 +329,10 @@ std::optional<std::string> broken_rule(const FramePlan& plan, const gl::Caps& ca
             return fmt::format("target {} is {}, which {} does not render", target.name, name(target.format),
                                caps.device);
         }
-        const int limit = gl::is_depth(target.format) ? caps.max_renderbuffer_size : caps.max_texture_size;
+        const bool in_renderbuffer = gl::is_depth(target.format) && !target.compared;
+        const int limit = in_renderbuffer ? caps.max_renderbuffer_size : caps.max_texture_size;
+        if (target.compared && (caps.es_version < 30 || !gl::is_depth(target.format)))
+            return fmt::format("target {} is compared with, which needs a depth format and ES 3.0", target.name);
         if (target.width > limit || target.height > limit) {
             return fmt::format("target {} is {}x{} pixels and {} allows {}", target.name, target.width, target.height,
                                caps.device, limit);

@@ -30,6 +30,9 @@ struct Target {
     gl::PixelFormat format = gl::PixelFormat::rgba8;
     int width = 0;
     int height = 0;
+    bool fixed_size = false;  ///< its size does not follow the picture's (a shadow map): not among the bytes a pixel
+    bool filtered = false;    ///< sampled with linear filtering; else nearest
+    bool compared = false;    ///< depth only: a texture that later passes compare with (ES 3.0); else never sampled
     [[nodiscard]] std::size_t bytes() const {
         return static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
                static_cast<std::size_t>(gl::bytes_per_pixel(format));
@@ -39,10 +42,10 @@ struct Target {
 enum class StartAction : std::uint8_t { keep, clear, discard };
 
 /// Where in the frame a pass stands. Effects choose a place; passes of one place keep the order of the list of effects.
-enum class PassOrder : std::uint8_t { depth, opaque, sky, transparent, post, display };
+enum class PassOrder : std::uint8_t { shadow, depth, opaque, sky, ground, transparent, post, display, finish };
 
 struct Pass {
-    std::string name;    ///< "surface_opaque"; also the ledger's and the debugger's name
+    std::string name;    ///< "surface"; also the ledger's and the debugger's name
     std::string effect;  ///< the card that draws it
     int phase = 0;       ///< told to the effect: which of its passes
     PassOrder order = PassOrder::opaque;
@@ -88,6 +91,8 @@ struct FramePlan {
 
     /// Index of the target called `target_name`, made with `format` at the size of the frame when it is new.
     int add_target(std::string_view target_name, gl::PixelFormat format);
+    /// Index of the target of that name, made as described when it is new.
+    int add_target(Target target);
     /// The target that surfaces and sky are drawn into, and the depth beside it; made when new.
     int add_scene_color();
     int add_scene_depth();

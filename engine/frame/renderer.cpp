@@ -39,7 +39,6 @@ void set_known_state(gl::EntryPoints& gl, const gl::Caps& caps) {
     gl.CullFace(GL_BACK);
     gl.FrontFace(GL_CCW);
     gl.BlendEquation(GL_FUNC_ADD);
-    gl.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     gl.DepthRangef(0.0f, 1.0f);
     if (caps.es_version < 30) return;
     gl.Disable(GL_RASTERIZER_DISCARD);
@@ -94,6 +93,7 @@ struct Renderer::State {
     std::array<std::uint32_t, kTextureUnits> textures{};
     int active_unit = -1;
     int depth_test = -1, depth_write = -1, cull = -1, blend = -1, color_mask = -1;
+    Blend blend_kind = Blend::none;
     std::uint32_t depth_function = 0;
     std::uint32_t array = ~0u;
     std::uint32_t vertex_buffer = ~0u;
@@ -119,9 +119,30 @@ gl::Texture make_color_target(gl::EntryPoints& gl, const gl::Caps& caps, const T
     const auto format = gl::transfer_format(target.format, !caps.sized_formats);
     gl.TexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(format.internal_format), target.width, target.height, 0,
                   format.format, format.type, nullptr);
+    const GLint filter = target.filtered ? GL_LINEAR : GL_NEAREST;
     for (const auto& [parameter, value] :
-         {std::pair{GL_TEXTURE_MIN_FILTER, GL_NEAREST}, std::pair{GL_TEXTURE_MAG_FILTER, GL_NEAREST},
+         {std::pair{GL_TEXTURE_MIN_FILTER, filter}, std::pair{GL_TEXTURE_MAG_FILTER, filter},
           std::pair{GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE}, std::pair{GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE}}) {
+        gl.TexParameteri(GL_TEXTURE_2D, static_cast<GLenum>(parameter), value);
+    }
+    gl::label(gl, texture, target.name.c_str());
+    return texture;
+}
+
+/// A depth texture that shaders compare with: the sampler answers how much of the four texels round it is nearer.
+gl::Texture make_compared_target(gl::EntryPoints& gl, const Target& target) {
+    gl::Texture texture = gl::create<gl::Kind::texture>(gl);
+    gl.ActiveTexture(GL_TEXTURE0);
+    gl.BindTexture(GL_TEXTURE_2D, texture.name());
+    const auto format = gl::transfer_format(target.format, false);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(format.internal_format), target.width, target.height, 0,
+                  format.format, format.type, nullptr);
+    const GLint filter = target.filtered ? GL_LINEAR : GL_NEAREST;
+    for (const auto& [parameter, value] :
+         {std::pair{GL_TEXTURE_MIN_FILTER, filter}, std::pair{GL_TEXTURE_MAG_FILTER, filter},
+          std::pair{GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE}, std::pair{GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE},
+          std::pair{GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE},
+          std::pair{GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL}}) {
         gl.TexParameteri(GL_TEXTURE_2D, static_cast<GLenum>(parameter), value);
     }
     gl::label(gl, texture, target.name.c_str());
@@ -153,12 +174,14 @@ void Renderer::prepare(const Scene& scene, const FramePlan& plan) {
         throw Mistake("the plan of " + plan.scene + " breaks a rule: " + *broken);
     works_.clear();
     work_of_pass_.clear();
+    adoptions_.clear();
     targets_ = std::make_unique<Targets>();
     *state_ = {};
     meshes_.clear();
     notices_.clear();
     textures_ = std::make_unique<TextureStore>(gl_, caps_);
     texture_bytes_ = 0;
+    own_texture_bytes_ = 0;
     scene_ = &scene;
     plan_ = plan;
     while (gl_.GetError() != GL_NO_ERROR) {}  // what came before is not ours
@@ -182,8 +205,12 @@ void Renderer::prepare(const Scene& scene, const FramePlan& plan) {
 void Renderer::allocate_targets() {
     for (const Target& target : plan_.targets) {
         const bool depth = gl::is_depth(target.format);
-        targets_->textures.push_back(depth ? gl::Texture{} : make_color_target(gl_, caps_, target));
-        targets_->renderbuffers.push_back(depth ? make_depth_target(gl_, target) : gl::Renderbuffer{});
+        const bool in_renderbuffer = depth && !target.compared;
+        if (in_renderbuffer) targets_->textures.emplace_back();
+        else
+            targets_->textures.push_back(depth ? make_compared_target(gl_, target)
+                                               : make_color_target(gl_, caps_, target));
+        targets_->renderbuffers.push_back(in_renderbuffer ? make_depth_target(gl_, target) : gl::Renderbuffer{});
         if (const std::uint32_t error = gl_.GetError(); error != GL_NO_ERROR)
             refuse_target(target.name, plan_, caps_, error_name(error));
     }
@@ -221,8 +248,13 @@ void Renderer::attach(const gl::Framebuffer& framebuffer, const Pass& pass) {
         names = plan_.targets[static_cast<std::size_t>(*pass.color)].name;
     }
     if (pass.depth) {
-        gl_.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER,
-                                    targets_->renderbuffers[static_cast<std::size_t>(*pass.depth)].name());
+        if (plan_.targets[static_cast<std::size_t>(*pass.depth)].compared) {
+            gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, target_texture(*pass.depth),
+                                     0);
+        } else {
+            gl_.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER,
+                                        targets_->renderbuffers[static_cast<std::size_t>(*pass.depth)].name());
+        }
         names += (names.empty() ? "" : " with ") + plan_.targets[static_cast<std::size_t>(*pass.depth)].name;
     }
     gl::label(gl_, framebuffer, pass.name.c_str());
@@ -232,23 +264,36 @@ void Renderer::attach(const gl::Framebuffer& framebuffer, const Pass& pass) {
 }
 
 void Renderer::make_works() {
-    std::vector<std::pair<std::string, EffectWork*>> made;
     for (const Pass& pass : plan_.passes) {
-        const auto known = std::ranges::find(made, pass.effect, &std::pair<std::string, EffectWork*>::first);
-        if (known != made.end()) {
-            work_of_pass_.push_back(known->second);
-            continue;
-        }
-        EffectWork* work = nullptr;  // the clear pass of an empty scene has nobody
-        if (!pass.effect.empty()) {
-            const auto card = std::ranges::find(description_.effects, std::string_view(pass.effect), &EffectCard::name);
-            expect(card != description_.effects.end(),
-                   [&] { return "the plan has a pass of " + pass.effect + ", which is not in the list"; });
-            works_.push_back((*card)->prepare(*this));
-            work = works_.back().get();
-        }
-        made.emplace_back(pass.effect, work);
-        work_of_pass_.push_back(work);
+        work_of_pass_.push_back(pass.effect.empty() ? nullptr : work_of(pass.effect));  // nobody clears an empty scene
+    }
+}
+
+EffectWork* Renderer::work_of(const std::string& effect) {
+    const auto known = std::ranges::find(works_, effect, &Work::effect);
+    if (known != works_.end()) return known->work.get();
+    const auto card = std::ranges::find(description_.effects, std::string_view(effect), &EffectCard::name);
+    expect(card != description_.effects.end(),
+           [&] { return "the plan has a pass of " + effect + ", which is not in the list"; });
+    std::unique_ptr<EffectWork> work;
+    if ((*card)->prepare != nullptr) work = (*card)->prepare(*this);
+    works_.push_back({effect, std::move(work)});
+    return works_.back().work.get();
+}
+
+void Renderer::adopt_insertions(const std::string& prefix, gl::Program& program) {
+    const auto is_known = [&](const Adoption& adoption) { return adoption.program == program.name(); };
+    if (std::ranges::any_of(adoptions_, is_known)) return;
+    for (const EffectDecision& decision : plan_.effects) {
+        const auto is_here = [&](const gl::Insertion& insertion) {
+            return std::string_view(insertion.point).starts_with(prefix);
+        };
+        if (!std::ranges::any_of(decision.insertions, is_here)) continue;
+        EffectWork* work = work_of(decision.effect);
+        if (work == nullptr) continue;
+        use(program);
+        if (const int adopted = work->adopt(*this, program); adopted >= 0)
+            adoptions_.push_back({program.name(), work, adopted});
     }
 }
 
@@ -260,6 +305,7 @@ void Renderer::draw_passes(const View& view, PassTimer* timer) {
     expect(scene_ != nullptr, "draw() before prepare()");
     expect(view.width == plan_.width && view.height == plan_.height, "the view's size is not the plan's");
     *state_ = {};  // the host may have used the context since the last frame
+    view_ = &view;
     set_known_state(gl_, caps_);
     if (timer) timer->begin_frame();
     for (std::size_t i = 0; i < plan_.passes.size(); ++i) {
@@ -271,12 +317,14 @@ void Renderer::draw_passes(const View& view, PassTimer* timer) {
         if (timer) timer->end_pass(static_cast<int>(i));
     }
     if (timer) timer->end_frame();
+    view_ = nullptr;
     finish_frame();
 }
 
 void Renderer::begin(const Pass& pass, std::uint32_t framebuffer) {
     gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-    gl_.Viewport(0, 0, plan_.width, plan_.height);
+    const Target& sized = plan_.targets[static_cast<std::size_t>(pass.color ? *pass.color : *pass.depth)];
+    gl_.Viewport(0, 0, sized.width, sized.height);
     // A tiler that knows a target starts empty never loads it from memory.
     std::array<GLenum, 2> discarded{};
     int discard_count = 0;
@@ -425,28 +473,38 @@ gl::Program& Renderer::program(const EffectCard& card, int variant, std::span<co
            "a shader variant the card does not have");
     gl::ProgramDescription description = describe_variant(card, shaders[static_cast<std::size_t>(variant)], tier,
                                                           plan_.arithmetic, caps_.fragment_highp, defines);
-    const std::string prefix = std::string(card.name) + ".";
+    const std::string prefix = insertion_prefix(shaders[static_cast<std::size_t>(variant)]);
     for (const EffectDecision& decision : plan_.effects) {
         for (const gl::Insertion& insertion : decision.insertions) {
             if (std::string_view(insertion.point).starts_with(prefix)) description.insertions.push_back(insertion);
         }
     }
-    return programs_.get(description);
+    gl::Program& made = programs_.get(description);
+    adopt_insertions(prefix, made);
+    return made;
 }
 
 void Renderer::use(const gl::Program& program) {
     if (state_->program == program.name()) return;
     state_->program = program.name();
     gl_.UseProgram(program.name());
+    if (view_ == nullptr) return;  // preparing
+    for (const Adoption& adoption : adoptions_) {
+        if (adoption.program == program.name()) adoption.work->feed(*this, *view_, adoption.adopted);
+    }
 }
 
-void Renderer::bind_texture(int unit, std::uint32_t texture) {
+void Renderer::bind_texture(int unit, std::uint32_t texture) { bind(GL_TEXTURE_2D, unit, texture); }
+
+void Renderer::bind_cube(int unit, std::uint32_t texture) { bind(GL_TEXTURE_CUBE_MAP, unit, texture); }
+
+void Renderer::bind(std::uint32_t target, int unit, std::uint32_t texture) {
     std::uint32_t& bound = state_->textures[static_cast<std::size_t>(unit)];
     if (bound == texture && texture != 0) return;
     bound = texture;
     if (state_->active_unit != unit) gl_.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
     state_->active_unit = unit;
-    gl_.BindTexture(GL_TEXTURE_2D, texture);
+    gl_.BindTexture(target, texture);
 }
 
 void Renderer::draw_full_screen() {
@@ -497,9 +555,20 @@ void Renderer::set_cull(bool on) {
     state_->cull = on;
 }
 
-void Renderer::set_blend(bool on) {
+void Renderer::set_blend(Blend blend) {
+    const bool on = blend != Blend::none;
     if (state_->blend != int{on}) set_capability(gl_, GL_BLEND, on);
     state_->blend = on;
+    if (!on || state_->blend_kind == blend) return;
+    state_->blend_kind = blend;
+    switch (blend) {
+        case Blend::none: break;
+        case Blend::alpha:
+            gl_.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+            break;
+        case Blend::add: gl_.BlendFuncSeparate(GL_ONE, GL_ONE, GL_ONE, GL_ONE); break;
+        case Blend::multiply: gl_.BlendFuncSeparate(GL_DST_COLOR, GL_ZERO, GL_ZERO, GL_ONE); break;
+    }
 }
 
 void Renderer::set_color_mask(bool on) {

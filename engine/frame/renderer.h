@@ -35,6 +35,26 @@ struct CensusRow {
     std::uint64_t negative = 0;  ///< values below 0 (reported, not a failure)
 };
 
+/// What drawing does with the colour that is there already.
+enum class Blend : std::uint8_t {
+    none,      ///< replaces it
+    alpha,     ///< source alpha over destination
+    add,       ///< source + destination
+    multiply,  ///< source * destination
+};
+
+/// Texture units, told apart so that neighbours in a list of draws share bindings. 8 is the minimum of ES 2.0.
+enum TextureUnit : int {
+    kBaseColorUnit = 0,  ///< surface's; also the first source of a full-screen pass
+    kMetallicRoughnessUnit = 1,
+    kNormalUnit = 2,
+    kEmissiveUnit = 3,
+    kReflectionUnit = 4,  ///< environment
+    kRoughReflectionUnit = 5,
+    kShadowUnit = 6,
+    kBloomUnit = 7,
+};
+
 class Renderer {
 public:
     /// `gl` and `caps` outlive the renderer; the context is current on every call. Many renderers may share a process,
@@ -75,7 +95,9 @@ public:
     /// gets the bytes as they are.
     [[nodiscard]] std::uint32_t texture(const Texture& texture, bool decoded);
     /// Bytes of every texture on the device, mip levels included.
-    [[nodiscard]] std::size_t texture_bytes() const { return texture_bytes_; }
+    [[nodiscard]] std::size_t texture_bytes() const { return texture_bytes_ + own_texture_bytes_; }
+    /// Adds a texture that an effect has uploaded itself to that sum.
+    void count_texture_bytes(std::size_t bytes) { own_texture_bytes_ += bytes; }
     /// The tier the plan gave to an effect.
     [[nodiscard]] Tier tier_of(std::string_view effect) const;
     /// The program of a card's variant at the plan's tier and arithmetic, with the insertions other effects make in it.
@@ -88,12 +110,13 @@ public:
     // For effects, while drawing: no allocation, no repeated call for a state that is set already.
     void use(const gl::Program& program);
     void bind_texture(int unit, std::uint32_t texture);
+    void bind_cube(int unit, std::uint32_t texture);
     [[nodiscard]] std::uint32_t target_texture(int target_index) const;
     void draw_full_screen();  ///< one triangle over the target; attribute kPosition is the clip position (vec2)
     void draw_mesh(const DrawMesh& mesh);
     void set_depth(bool test, bool write, std::uint32_t function);
     void set_cull(bool on);
-    void set_blend(bool on);  ///< source alpha over destination
+    void set_blend(Blend blend);
     void set_color_mask(bool on);
 
 private:
@@ -102,6 +125,9 @@ private:
     void allocate_targets();
     void attach(const gl::Framebuffer& framebuffer, const Pass& pass);
     void make_works();
+    void bind(std::uint32_t target, int unit, std::uint32_t texture);
+    EffectWork* work_of(const std::string& effect);
+    void adopt_insertions(const std::string& prefix, gl::Program& program);
     void begin(const Pass& pass, std::uint32_t framebuffer);
     void finish_frame();
     void draw_passes(const View& view, PassTimer* timer);
@@ -116,9 +142,21 @@ private:
     std::unique_ptr<Targets> targets_;
     std::unique_ptr<State> state_;
     std::unique_ptr<TextureStore> textures_;
-    std::vector<std::unique_ptr<EffectWork>> works_;  ///< one for each pass effect in the plan
+    struct Work {
+        std::string effect;
+        std::unique_ptr<EffectWork> work;
+    };
+    struct Adoption {
+        std::uint32_t program;
+        EffectWork* work;
+        int adopted;
+    };
+    std::vector<Work> works_;  ///< one for each effect that draws or inserts
+    std::vector<Adoption> adoptions_;
+    const View* view_ = nullptr;  ///< of the frame being drawn
     std::vector<EffectWork*> work_of_pass_;
     std::size_t texture_bytes_ = 0;
+    std::size_t own_texture_bytes_ = 0;
     std::vector<std::string> notices_;
     std::uint32_t first_error_ = 0;
 };

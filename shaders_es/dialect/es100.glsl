@@ -8,3 +8,4 @@
 #define fragment_color gl_FragColor
 #endif
 #define sample_2d(image, at) texture2D(image, at)
+#define sample_cube(image, toward) textureCube(image, toward)

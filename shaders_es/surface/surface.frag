@@ -1,5 +1,7 @@
 // Shades a surface: material, direct light, constant ambient. Insertion points for material effects, in order:
 //   surface.material  albedo, specular, smoothness, power, n, v may be changed (all set, nothing lit yet)
+//   surface.ambient   diffuse_light and mirrored_light, what falls in from everywhere, may be changed
+//   surface.sun       sun_light may be dimmed
 //   surface.lighting  light holds all reflected light
 //   surface.color     color holds what will be stored
 #include "surface/surface_limits.h"
@@ -113,9 +115,14 @@ void main() {
     //@insert surface.material
 
     float n_dot_v = saturate(dot(n, v));
-    vec3 light = (albedo + fresnel_glossy(specular, smoothness, n_dot_v)) * ambient.rgb + emission;
+    vec3 diffuse_light = ambient.rgb;
+    vec3 mirrored_light = ambient.rgb;
+    //@insert surface.ambient
+    vec3 light = albedo * diffuse_light + fresnel_glossy(specular, smoothness, n_dot_v) * mirrored_light + emission;
 #ifdef SUN
-    light += direct_light(albedo, specular, power, n, v, sun_direction.xyz, sun_color.rgb);
+    vec3 sun_light = sun_color.rgb;
+    //@insert surface.sun
+    light += direct_light(albedo, specular, power, n, v, sun_direction.xyz, sun_light);
 #endif
 #ifdef LOCAL_LIGHTS
 #ifdef TIER_LOW

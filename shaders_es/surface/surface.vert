@@ -1,5 +1,6 @@
 // Places a vertex, and hands on what the fragment stage interpolates. All positions are relative to the eye (the CPU
-// subtracts in double), so a scene 10 km from the origin shades as it does at the origin.
+// subtracts in double), so a scene 10 km from the origin shades as it does at the origin. Insertion point:
+//   surface.vertex  at [m] from the eye, n (the side that is seen where vertices are lit); lit surfaces only
 #include "surface/surface_limits.h"
 #include "common/maths.glsl"
 
@@ -52,6 +53,8 @@ vec3 local_light(vec3 at, vec3 n) {
 }
 #endif
 
+//@insert_functions
+
 invariant gl_Position;  // the depth prepass writes the same depths
 
 void main() {
@@ -65,12 +68,13 @@ void main() {
 #ifndef UNLIT
     vec3 n = normalize((normal_from_local * vec4(normal.xyz, 0.0)).xyz);
     vertex_normal = n;
-#if defined(LOCAL_LIGHTS) && defined(TIER_LOW)
-#ifdef DOUBLE_SIDED
+#if defined(DOUBLE_SIDED) && defined(TIER_LOW)
     n = dot(n, vertex_to_eye) < 0.0 ? -n : n;  // a vertex has no front: it is lit on the side that is seen
 #endif
+#if defined(LOCAL_LIGHTS) && defined(TIER_LOW)
     vertex_light = local_light(at, n);
 #endif
+    //@insert surface.vertex
 #endif
 #ifdef NORMAL_MAP
     vertex_tangent = vec4(normalize((eye_from_local * vec4(tangent.xyz, 0.0)).xyz), tangent.w);

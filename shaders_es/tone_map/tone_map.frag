@@ -1,4 +1,5 @@
-// Linear light to display values.
+// Linear light to display values. Insertion point:
+//   tone_map.light  light >= 0, at most TONE_MAP_RANGE, may be changed
 #include "common/maths.glsl"
 #include "common/packing.glsl"
 #include "tone_map/tone_map.glsl"
@@ -6,11 +7,15 @@
 FRAGMENT_IN FULL vec2 vertex_uv;
 uniform HALF sampler2D scene_color;
 
+//@insert_functions
+
 void main() {
     vec3 stored = sample_2d(scene_color, vertex_uv).rgb;
 #ifdef SCENE_COLOR_PACKED
     stored = unpacked_scene_color(stored);
 #endif
     // A NaN or a negative in scene_color must not reach the curve: it has a pole at -0.22.
-    fragment_color = vec4(tone_map(storable(stored, TONE_MAP_RANGE)), 1.0);
+    vec3 light = storable(stored, TONE_MAP_RANGE);
+    //@insert tone_map.light
+    fragment_color = vec4(tone_map(light), 1.0);
 }

@@ -60,7 +60,7 @@ TEST_F(RendererTest, MakesTheSameTraceTwice) {
     }
     EXPECT_GT(traces[0].size(), 1000u);
     EXPECT_EQ(traces[0], traces[1]);
-    EXPECT_NE(traces[0].find("surface_opaque"), std::string::npos);
+    EXPECT_NE(traces[0].find("surface"), std::string::npos);
     EXPECT_NE(traces[0].find("glDrawElements"), std::string::npos);
 }
 

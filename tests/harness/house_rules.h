@@ -47,6 +47,7 @@ using Violations = std::vector<std::string>;
 struct CardNames {
     std::string name;
     std::string budget_row;
+    bool own_shaders = true;  ///< false: it draws with another effect's
 };
 [[nodiscard]] Violations card_violations(const std::vector<CardNames>& cards, const std::set<std::string>& paths,
                                          const std::set<std::string>& budget_rows);

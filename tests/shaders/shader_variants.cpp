@@ -53,10 +53,10 @@ std::vector<ArithmeticCase> arithmetic_cases(Tier tier) {
     return cases;
 }
 
-/// Those of `set` that go into the shaders of `card`: points are named EFFECT.point.
-std::vector<gl::Insertion> insertions_into(const EffectCard& card, const std::vector<gl::Insertion>& set) {
+/// Those of `set` that go into the shaders of `variant`: points are named SHADERS.point.
+std::vector<gl::Insertion> insertions_into(const ShaderVariant& variant, const std::vector<gl::Insertion>& set) {
     std::vector<gl::Insertion> result;
-    const std::string prefix = std::string(card.name) + ".";
+    const std::string prefix = insertion_prefix(variant);
     for (const gl::Insertion& insertion : set) {
         if (std::string_view(insertion.point).starts_with(prefix)) result.push_back(insertion);
     }
@@ -167,9 +167,9 @@ std::vector<NamedProgram> every_variant(Tier tier, std::span<const EffectCard* c
     std::vector<NamedProgram> programs;
     for (const EffectCard* card : cards) {
         for (const std::vector<gl::Insertion>& set : sets) {
-            const std::vector<gl::Insertion> insertions = insertions_into(*card, set);
-            if (!set.empty() && insertions.empty()) continue;
             for (const ShaderVariant& variant : card->tiers[static_cast<std::size_t>(tier)].shaders) {
+                const std::vector<gl::Insertion> insertions = insertions_into(variant, set);
+                if (!set.empty() && insertions.empty()) continue;
                 for (const Words& defines : define_sets(variant.defines)) {
                     for (const ArithmeticCase& arithmetic : arithmetic_cases(tier)) {
                         gl::ProgramDescription description = describe_variant(

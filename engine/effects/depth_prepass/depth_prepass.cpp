@@ -70,7 +70,7 @@ public:
 
     void draw(Renderer& renderer, const View& view, int) override {
         renderer.set_color_mask(false);
-        renderer.set_blend(false);
+        renderer.set_blend(Blend::none);
         renderer.set_depth(true, true, GL_LESS);
         renderer.use(program_);
         for (const int index : surfaces_) {

@@ -46,7 +46,7 @@ public:
     void draw(Renderer& renderer, const View& view, int) override {
         renderer.set_depth(true, false, GL_LEQUAL);
         renderer.set_cull(false);
-        renderer.set_blend(false);
+        renderer.set_blend(Blend::none);
         renderer.set_color_mask(true);
         renderer.use(*program_);
         // An orthographic eye looks one way: every pixel sees the same sky.

@@ -10,6 +10,12 @@ namespace halfframe {
 
 extern const EffectCard kSurface;
 
+/// The programs of surface, which transparent draws with too. One list, so that both are checked alike.
+[[nodiscard]] std::span<const ShaderVariant> surface_shaders();
+
+/// How many surfaces blend with what is behind them; the others hide it.
+[[nodiscard]] int count_blended(const Scene& scene);
+
 /// Lights that reach `box` (world, [m]), strongest first, at most `limit`; suns are not among them.
 /// `left_out` counts those that reach it and had no place.
 [[nodiscard]] std::vector<int> lights_reaching(const Scene& scene, const Box& box, int limit, int& left_out);

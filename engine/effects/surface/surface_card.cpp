@@ -19,42 +19,40 @@ constexpr std::string_view kDefines =
     "LOCAL_LIGHTS UNLIT POINTS SCENE_COLOR_PACKED";
 constexpr std::array kShaders = {ShaderVariant{"surface/surface.vert", "surface/surface.frag", kDefines}};
 
-bool is_blended(const Scene& scene, const Surface& surface) {
-    return scene.materials[static_cast<std::size_t>(surface.material)].alpha_mode == AlphaMode::blend;
-}
-
 Demand called_for(const PlanContext& context) {
     const std::size_t count = context.scene.surfaces.size();
     if (count == 0) return {false, "the scene has no surfaces"};
-    const auto blended = std::ranges::count_if(
-        context.scene.surfaces, [&](const Surface& surface) { return is_blended(context.scene, surface); });
-    return {true,
-            fmt::format("the scene has {} surface{}, {} of them translucent", count, count == 1 ? "" : "s", blended)};
+    const std::size_t opaque = count - static_cast<std::size_t>(count_blended(context.scene));
+    if (opaque == 0) return {false, "every surface is translucent: they are drawn by transparent"};
+    return {true, fmt::format("the scene has {} opaque surface{}", opaque, opaque == 1 ? "" : "s")};
 }
 
-void add_passes(const PlanContext& context, FramePlan& plan) {
-    const auto add = [&](const char* pass_name, int phase, PassOrder order) {
-        Pass pass;
-        pass.name = pass_name;
-        pass.effect = "surface";
-        pass.phase = phase;
-        pass.order = order;
-        pass.color = plan.add_scene_color();
-        pass.depth = plan.add_scene_depth();
-        pass.writes_depth = phase == kOpaquePhase;
-        plan.passes.push_back(pass);
-    };
-    const auto blended = [&](const Surface& surface) { return is_blended(context.scene, surface); };
-    if (!std::ranges::all_of(context.scene.surfaces, blended)) add("surface_opaque", kOpaquePhase, PassOrder::opaque);
-    if (std::ranges::any_of(context.scene.surfaces, blended))
-        add("surface_transparent", kTransparentPhase, PassOrder::transparent);
+void add_passes(const PlanContext&, FramePlan& plan) {
+    Pass pass;
+    pass.name = "surface";
+    pass.effect = "surface";
+    pass.order = PassOrder::opaque;
+    pass.color = plan.add_scene_color();
+    pass.depth = plan.add_scene_depth();
+    pass.writes_depth = true;
+    plan.passes.push_back(pass);
 }
 
-std::unique_ptr<EffectWork> prepare(Renderer& renderer) { return std::make_unique<SurfaceWork>(renderer); }
+std::unique_ptr<EffectWork> prepare(Renderer& renderer) {
+    return std::make_unique<SurfaceWork>(renderer, kSurface, SurfacePart::opaque);
+}
 
 float strongest_channel(const glm::vec3& color) { return std::max({color.r, color.g, color.b}); }
 
 }  // namespace
+
+std::span<const ShaderVariant> surface_shaders() { return kShaders; }
+
+int count_blended(const Scene& scene) {
+    return static_cast<int>(std::ranges::count_if(scene.surfaces, [&](const Surface& surface) {
+        return scene.materials[static_cast<std::size_t>(surface.material)].alpha_mode == AlphaMode::blend;
+    }));
+}
 
 std::vector<int> lights_reaching(const Scene& scene, const Box& box, int limit, int& left_out) {
     struct Candidate {
@@ -87,7 +85,7 @@ const EffectCard kSurface{
         "N. Hoffman, SIGGRAPH 2010 course, Crafting Physically Motivated Shading Models; S. Lagarde and L. Harduin, "
         "GDC Europe 2013",
     .kind = EffectKind::pass,
-    .called_for_by = "Scene::surfaces",
+    .called_for_by = "surfaces that hide what is behind them",
     .budget_row = "surface",
     .tiers = {TierCard{kShaders, "scene_color, depth",
                        "the sun by pixel with its highlight; local lights by vertex and diffuse only; mediump where "

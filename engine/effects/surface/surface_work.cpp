@@ -14,9 +14,6 @@ namespace halfframe {
 
 namespace {
 
-/// Texture units by sampler name: the same in every variant, so that neighbours in the list share bindings.
-enum Unit : int { kBaseColorUnit = 0, kMetallicRoughnessUnit = 1, kNormalUnit = 2, kEmissiveUnit = 3 };
-
 void set(gl::EntryPoints& gl, int location, const glm::vec4& value) {
     if (location >= 0) gl.Uniform4fv(location, 1, &value.x);
 }
@@ -50,7 +47,7 @@ std::vector<std::string_view> SurfaceWork::defines_of(const Renderer& renderer, 
 }
 
 int SurfaceWork::variant_of(Renderer& renderer, const std::vector<std::string_view>& defines) {
-    gl::Program& program = renderer.program(kSurface, 0, defines);
+    gl::Program& program = renderer.program(card_, 0, defines);
     for (std::size_t i = 0; i < variants_.size(); ++i) {
         if (variants_[i].program == &program) return static_cast<int>(i);
     }
@@ -101,7 +98,7 @@ void SurfaceWork::add_draw(Renderer& renderer, int index) {
     }
     const auto defines = defines_of(renderer, surface, !draw.lights.empty());
     draw.variant = variant_of(renderer, defines);
-    const bool decoded = renderer.tier_of("surface") != Tier::low && renderer.caps().srgb_textures;
+    const bool decoded = renderer.tier_of(card_.name) != Tier::low && renderer.caps().srgb_textures;
     const auto uses = [&](std::string_view define) { return std::ranges::find(defines, define) != defines.end(); };
     if (uses("BASE_COLOR_MAP"))
         draw.textures.push_back({kBaseColorUnit, renderer.texture(material.base_color_texture, decoded)});
@@ -110,10 +107,10 @@ void SurfaceWork::add_draw(Renderer& renderer, int index) {
     if (uses("NORMAL_MAP")) draw.textures.push_back({kNormalUnit, renderer.texture(material.normal_texture, false)});
     if (uses("EMISSIVE_MAP"))
         draw.textures.push_back({kEmissiveUnit, renderer.texture(material.emissive_texture, decoded)});
-    (material.alpha_mode == AlphaMode::blend ? transparent_ : opaque_).push_back(std::move(draw));
+    draws_.push_back(std::move(draw));
 }
 
-SurfaceWork::SurfaceWork(Renderer& renderer) {
+SurfaceWork::SurfaceWork(Renderer& renderer, const EffectCard& card, SurfacePart part) : card_(card), part_(part) {
     const Scene& scene = renderer.scene();
     int suns = 0;
     for (const Light& light : scene.lights) {
@@ -121,13 +118,19 @@ SurfaceWork::SurfaceWork(Renderer& renderer) {
         if (suns++ == 0) sun_ = &light;
     }
     if (suns > 1) renderer.add_notice(fmt::format("the scene has {} suns and one is drawn: {}", suns, sun_->name));
-    for (std::size_t i = 0; i < scene.surfaces.size(); ++i) add_draw(renderer, static_cast<int>(i));
+    for (std::size_t i = 0; i < scene.surfaces.size(); ++i) {
+        const bool blends = material_of(renderer, scene.surfaces[i]).alpha_mode == AlphaMode::blend;
+        if (blends == (part == SurfacePart::transparent)) add_draw(renderer, static_cast<int>(i));
+    }
+    if (part == SurfacePart::transparent) {
+        order_.resize(draws_.size());
+        return;
+    }
     // Fewest changes of program, then of material, then of culling; the scene's order decides the rest, so that every
     // run is the same.
-    std::ranges::stable_sort(opaque_, [](const Draw& a, const Draw& b) {
+    std::ranges::stable_sort(draws_, [](const Draw& a, const Draw& b) {
         return std::tie(a.variant, a.material) < std::tie(b.variant, b.material);
     });
-    order_.resize(transparent_.size());
 }
 
 void SurfaceWork::set_variant(Renderer& renderer, const View& view, const Variant& variant) {
@@ -224,8 +227,8 @@ void SurfaceWork::draw_one(Renderer& renderer, const View& view, const Draw& dra
 }
 
 void SurfaceWork::sort_by_distance(const Renderer& renderer, const View& view) {
-    for (std::size_t i = 0; i < transparent_.size(); ++i) {
-        const Surface& surface = renderer.scene().surfaces[static_cast<std::size_t>(transparent_[i].surface)];
+    for (std::size_t i = 0; i < draws_.size(); ++i) {
+        const Surface& surface = renderer.scene().surfaces[static_cast<std::size_t>(draws_[i].surface)];
         const Box box = world_box(renderer.mesh(surface.mesh).box, surface.world_from_local);
         const glm::vec3 from_eye = (box.low + box.high) * 0.5f - view.eye;
         order_[i] = {static_cast<double>(glm::dot(from_eye, from_eye)), static_cast<int>(i)};
@@ -235,20 +238,20 @@ void SurfaceWork::sort_by_distance(const Renderer& renderer, const View& view) {
     });
 }
 
-void SurfaceWork::draw(Renderer& renderer, const View& view, int phase) {
+void SurfaceWork::draw(Renderer& renderer, const View& view, int) {
     current_variant_ = -1;
     current_material_ = -1;
     renderer.set_color_mask(true);
-    if (phase == kOpaquePhase) {
-        renderer.set_blend(false);
+    if (part_ == SurfacePart::opaque) {
+        renderer.set_blend(Blend::none);
         renderer.set_depth(true, true, GL_LEQUAL);
-        for (const Draw& draw : opaque_) draw_one(renderer, view, draw);
+        for (const Draw& draw : draws_) draw_one(renderer, view, draw);
         return;
     }
-    renderer.set_blend(true);
+    renderer.set_blend(Blend::alpha);
     renderer.set_depth(true, false, GL_LEQUAL);
     sort_by_distance(renderer, view);
-    for (const Order& order : order_) draw_one(renderer, view, transparent_[static_cast<std::size_t>(order.draw)]);
+    for (const Order& order : order_) draw_one(renderer, view, draws_[static_cast<std::size_t>(order.draw)]);
 }
 
 }  // namespace halfframe

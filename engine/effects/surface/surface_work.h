@@ -10,12 +10,13 @@
 
 namespace halfframe {
 
-inline constexpr int kOpaquePhase = 0;
-inline constexpr int kTransparentPhase = 1;
+/// Which of a scene's surfaces are drawn: those that hide what is behind them, or those that blend, far to near.
+enum class SurfacePart : std::uint8_t { opaque, transparent };
 
 class SurfaceWork final : public EffectWork {
 public:
-    explicit SurfaceWork(Renderer& renderer);
+    /// `card` gives tier and shaders: surface's own, or that of another effect with the same shaders.
+    SurfaceWork(Renderer& renderer, const EffectCard& card, SurfacePart part);
     void draw(Renderer& renderer, const View& view, int phase) override;
 
 private:
@@ -52,15 +53,16 @@ private:
     void set_lights(Renderer& renderer, const View& view, const Variant& variant, const Draw& draw);
     void draw_one(Renderer& renderer, const View& view, const Draw& draw);
 
+    const EffectCard& card_;
+    SurfacePart part_;
     const Light* sun_ = nullptr;
     std::vector<Variant> variants_;
-    std::vector<Draw> opaque_;
-    std::vector<Draw> transparent_;
+    std::vector<Draw> draws_;
     struct Order {
         double distance;
         int draw;
     };
-    std::vector<Order> order_;  ///< of transparent_, far first; sized while preparing
+    std::vector<Order> order_;  ///< transparent only: far first; sized while preparing
     int current_variant_ = -1;
     int current_material_ = -1;
 };

@@ -58,7 +58,7 @@ public:
     void draw(Renderer& renderer, const View&, int) override {
         renderer.set_depth(false, false, GL_ALWAYS);
         renderer.set_cull(false);
-        renderer.set_blend(false);
+        renderer.set_blend(Blend::none);
         renderer.set_color_mask(true);
         renderer.use(*program_);
         renderer.bind_texture(0, renderer.target_texture(source_));

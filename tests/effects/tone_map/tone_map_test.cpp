@@ -67,9 +67,8 @@ TEST_F(ToneMap, AnInfiniteOrNegativeLightIsWhiteOrBlack) {
 TEST_F(ToneMap, IsAPassOnlyWhereLightIsStored) {
     const Scene scene = glowing(1.0f);
     EXPECT_EQ(plan(scene, {.tier = Tier::console}).passes.back().name, "tone_map");
-    EXPECT_EQ(plan(scene, {.tier = Tier::low}).passes.back().name, "surface_opaque");
-    EXPECT_EQ(plan(scene, {.tier = Tier::console, .storage = gl::PixelFormat::rgba8}).passes.back().name,
-              "surface_opaque");
+    EXPECT_EQ(plan(scene, {.tier = Tier::low}).passes.back().name, "surface");
+    EXPECT_EQ(plan(scene, {.tier = Tier::console, .storage = gl::PixelFormat::rgba8}).passes.back().name, "surface");
     EXPECT_FALSE(plan({.name = "nothing"}).find("tone_map")->in);
 }
 

@@ -15,6 +15,9 @@ constexpr auto kEffects = std::to_array<const EffectCard*>({
 #ifndef HALFFRAME_WITHOUT_DEPTH_PREPASS
     &kDepthPrepass,  // after surface: it serves nothing without it
 #endif
+#ifndef HALFFRAME_WITHOUT_ENVIRONMENT
+    &kEnvironment,
+#endif
 #ifndef HALFFRAME_WITHOUT_SKY
     &kSky,
 #endif

@@ -6,6 +6,7 @@
 namespace halfframe {
 
 extern const EffectCard kDepthPrepass;
+extern const EffectCard kEnvironment;
 extern const EffectCard kSurface;
 extern const EffectCard kSky;
 extern const EffectCard kTransparent;

@@ -118,6 +118,8 @@ struct EnvironmentMap {
     /// Level 0 is the sharpest; level l is max(size >> l, 1) texels a side. Each holds six faces, +X -X +Y -Y +Z -Z,
     /// rows in the order glTexImage2D takes them. The chain ends at one texel, as ES 2.0 demands.
     std::vector<std::vector<glm::vec3>> levels;
+    /// The level for smoothness 0; a surface of smoothness s reads level (1 - s) * roughest_level.
+    int roughest_level = 0;
     /// Power of the Phong lobe (R.l)^power that each level was smoothed with, for reporting.
     std::vector<float> powers;
     /// Light that a white Lambert surface of normal n shows: the sum of irradiance[i] times the polynomial 1, y, z, x,

@@ -68,6 +68,7 @@ struct FunctionEntry {
 [[nodiscard]] std::vector<FunctionEntry> function_list();
 
 // The parts of that list, in or out of the build.
+[[nodiscard]] std::vector<FunctionEntry> environment_functions();
 [[nodiscard]] std::vector<FunctionEntry> sky_functions();
 [[nodiscard]] std::vector<FunctionEntry> surface_functions();
 [[nodiscard]] std::vector<FunctionEntry> tone_map_functions();

@@ -1,0 +1,233 @@
+// Card of the environment: what calls for it, what it inserts, its cubes on the device.
+#include "engine/effects/environment/environment.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "engine/frame/frame_plan.h"
+#include "engine/frame/renderer.h"
+#include "shaders_es/environment/environment_limits.h"
+
+namespace halfframe {
+
+namespace {
+
+constexpr const char* kAddLight =
+    "diffuse_light += environment_irradiance(n); mirrored_light += environment_reflection(reflect(-v, n), smoothness);";
+constexpr std::array kInsertions = {gl::Insertion{"surface.ambient", "environment/environment_cube.glsl", kAddLight}};
+constexpr std::array kLowInsertions = {
+    gl::Insertion{"surface.vertex", "environment/environment_low_vertex.glsl",
+                  "vertex_irradiance = environment_irradiance(n);"},
+    gl::Insertion{"surface.ambient", "environment/environment_low_fragment.glsl",
+                  "diffuse_light += vertex_irradiance; "
+                  "mirrored_light += environment_reflection(reflect(-v, n), smoothness);"}};
+
+bool is_lit(const Scene& scene, const Surface& surface) {
+    return !scene.meshes[static_cast<std::size_t>(surface.mesh)].normals.empty();
+}
+
+Demand called_for(const PlanContext& context) {
+    const Scene& scene = context.scene;
+    if (!scene.environment) return {false, "the scene has no environment"};
+    if (!std::ranges::any_of(scene.surfaces, [&](const Surface& surface) { return is_lit(scene, surface); }))
+        return {false, "no surface has normals, so nothing reflects the environment"};
+    return {true, fmt::format("the scene is lit by the environment {}", scene.environment->name)};
+}
+
+std::span<const gl::Insertion> insertions(const PlanContext& context) {
+    if (context.tier == Tier::low) return kLowInsertions;
+    return kInsertions;
+}
+
+/// Square root of the largest light that is stored [sqrt(light)]; > 0.
+float root_range_of(const EnvironmentMap& map) {
+    float largest = 0.0f;
+    for (const auto& level : map.levels) {
+        for (const glm::vec3& texel : level) largest = std::max({largest, texel.r, texel.g, texel.b});
+    }
+    return std::sqrt(std::clamp(largest, 1.0f / 64.0f, static_cast<float>(ENVIRONMENT_RANGE)));
+}
+
+class EnvironmentWork final : public EffectWork {
+public:
+    explicit EnvironmentWork(Renderer& renderer)
+        : map_(renderer.scene().environment ? *renderer.scene().environment : kNothing),
+          tier_(renderer.tier_of("environment")),
+          root_range_(root_range_of(map_)) {
+        if (map_.levels.empty()) return;  // switched on by hand in a scene without one
+        say_what_is_cut(renderer);
+        const int largest = renderer.caps().max_cube_map_size;
+        if (tier_ == Tier::low) {
+            sharp_ = upload(renderer, level_for(map_, ENVIRONMENT_SHARP, largest), 1);
+            rough_ = upload(renderer, level_for(map_, ENVIRONMENT_ROUGH, largest), 1);
+            return;
+        }
+        first_level_ = level_for(map_, 1.0f, largest);
+        sharp_ = upload(renderer, first_level_, static_cast<int>(map_.levels.size()) - first_level_);
+    }
+
+    int adopt(Renderer& renderer, gl::Program& program) override {
+        Adopted adopted;
+        adopted.scale = program.uniform_if_used("reflection_scale");
+        adopted.terms = program.uniform_if_used("irradiance_terms");
+        for (const auto& [sampler, unit] :
+             {std::pair{"reflection_map", kReflectionUnit}, std::pair{"rough_reflection_map", kRoughReflectionUnit}}) {
+            if (const int location = program.uniform_if_used(sampler); location >= 0)
+                renderer.gl().Uniform1i(location, unit);
+        }
+        if (adopted.scale < 0 && adopted.terms < 0) return -1;  // not lit
+        adopted_.push_back(adopted);
+        return static_cast<int>(adopted_.size()) - 1;
+    }
+
+    void feed(Renderer& renderer, const View& view, int index) override {
+        const Adopted& adopted = adopted_[static_cast<std::size_t>(index)];
+        gl::EntryPoints& gl = renderer.gl();
+        if (adopted.scale >= 0) {
+            const float scale = tier_ == Tier::reference ? view.exposure : root_range_ * std::sqrt(view.exposure);
+            const glm::vec4 value(map_.levels.empty() ? 0.0f : scale,
+                                  static_cast<float>(map_.roughest_level - first_level_), 0.0f, 0.0f);
+            gl.Uniform4fv(adopted.scale, 1, &value.x);
+        }
+        if (adopted.terms >= 0) {
+            std::array<glm::vec4, 9> terms{};
+            for (std::size_t i = 0; i < terms.size(); ++i)
+                terms[i] = glm::vec4(map_.irradiance[i] * view.exposure, 0.0f);
+            gl.Uniform4fv(adopted.terms, static_cast<GLsizei>(terms.size()), &terms[0].x);
+        }
+        if (sharp_) renderer.bind_cube(kReflectionUnit, sharp_.name());
+        if (rough_) renderer.bind_cube(kRoughReflectionUnit, rough_.name());
+    }
+
+private:
+    struct Adopted {
+        int scale = -1;
+        int terms = -1;
+    };
+
+    void say_what_is_cut(Renderer& renderer) const {
+        if (tier_ == Tier::reference) return;
+        const auto& top = map_.levels.front();
+        const auto cut = std::ranges::count_if(top, [](const glm::vec3& texel) {
+            return std::max({texel.r, texel.g, texel.b}) > static_cast<float>(ENVIRONMENT_RANGE);
+        });
+        if (cut == 0) return;
+        renderer.add_notice(fmt::format(
+            "{:.2f} % of the environment {} is brighter than {} and is cut there in RGBM8; "
+            "--tier environment=reference keeps it",
+            100.0 * static_cast<double>(cut) / static_cast<double>(top.size()), map_.name, ENVIRONMENT_RANGE));
+    }
+
+    /// `count` levels from `first` on as a cube.
+    gl::Texture upload(Renderer& renderer, int first, int count) const {
+        gl::EntryPoints& gl = renderer.gl();
+        gl::Texture cube = gl::create<gl::Kind::texture>(gl);
+        gl.ActiveTexture(GL_TEXTURE0);
+        gl.BindTexture(GL_TEXTURE_CUBE_MAP, cube.name());
+        std::size_t bytes = 0;
+        for (int i = 0; i < count; ++i) bytes += upload_level(renderer, first + i, i);
+        const GLint minify = count > 1 ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR;
+        for (const auto& [parameter, value] :
+             {std::pair{GL_TEXTURE_MIN_FILTER, minify}, std::pair{GL_TEXTURE_MAG_FILTER, GL_LINEAR},
+              std::pair{GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE}, std::pair{GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE}}) {
+            gl.TexParameteri(GL_TEXTURE_CUBE_MAP, static_cast<GLenum>(parameter), value);
+        }
+        gl::label(gl, cube, map_.name.c_str());
+        renderer.count_texture_bytes(bytes);
+        return cube;
+    }
+
+    std::size_t upload_level(Renderer& renderer, int level, int as_level) const {
+        const auto& texels = map_.levels[static_cast<std::size_t>(level)];
+        const int side = std::max(map_.size >> level, 1);
+        const std::size_t face_texels = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
+        const bool in_floats = tier_ == Tier::reference;
+        const auto format = gl::transfer_format(in_floats ? gl::PixelFormat::rgba16f : gl::PixelFormat::rgba8,
+                                                !renderer.caps().sized_formats);
+        std::vector<std::uint8_t> packed;
+        std::vector<glm::vec4> floats;
+        for (int face = 0; face < 6; ++face) {
+            packed.clear();
+            floats.clear();
+            for (std::size_t i = 0; i < face_texels; ++i) {
+                const glm::vec3& light = texels[static_cast<std::size_t>(face) * face_texels + i];
+                if (in_floats) {
+                    floats.emplace_back(glm::min(light, glm::vec3(kLargestHalf)), 1.0f);
+                } else {
+                    const auto texel = packed_rgbm(light, root_range_);
+                    packed.insert(packed.end(), texel.begin(), texel.end());
+                }
+            }
+            const void* pixels = in_floats ? static_cast<const void*>(floats.data()) : packed.data();
+            renderer.gl().TexImage2D(GL_TEXTURE_CUBE_MAP_POSITIVE_X + static_cast<GLenum>(face), as_level,
+                                     static_cast<GLint>(format.internal_format), side, side, 0, format.format,
+                                     in_floats ? GL_FLOAT : format.type, pixels);
+        }
+        return face_texels * 6 * (in_floats ? 8 : 4);
+    }
+
+    static constexpr float kLargestHalf = 65504.0f;
+    static const EnvironmentMap kNothing;
+
+    const EnvironmentMap& map_;
+    Tier tier_;
+    float root_range_;
+    int first_level_ = 0;
+    gl::Texture sharp_;
+    gl::Texture rough_;
+    std::vector<Adopted> adopted_;
+};
+
+const EnvironmentMap EnvironmentWork::kNothing{};
+
+std::unique_ptr<EffectWork> prepare(Renderer& renderer) { return std::make_unique<EnvironmentWork>(renderer); }
+
+}  // namespace
+
+std::array<std::uint8_t, 4> packed_rgbm(const glm::vec3& light, float root_range) {
+    glm::vec3 root{0.0f};
+    for (int i = 0; i < 3; ++i) root[i] = light[i] > 0.0f ? std::min(std::sqrt(light[i]) / root_range, 1.0f) : 0.0f;
+    const float largest = std::max({root.r, root.g, root.b});
+    const float multiplier = std::clamp(std::ceil(largest * 255.0f), 1.0f, 255.0f);
+    std::array<std::uint8_t, 4> texel{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const float share = root[static_cast<int>(i)] * 255.0f / multiplier;
+        texel[i] = static_cast<std::uint8_t>(std::lround(std::min(share, 1.0f) * 255.0f));
+    }
+    texel[3] = static_cast<std::uint8_t>(multiplier);
+    return texel;
+}
+
+int level_for(const EnvironmentMap& map, float smoothness, int largest_size) {
+    const auto last = static_cast<int>(map.levels.size()) - 1;
+    const auto wished = static_cast<int>(std::lround((1.0f - smoothness) * static_cast<float>(map.roughest_level)));
+    int level = std::clamp(wished, 0, last);
+    while (level < last && std::max(map.size >> level, 1) > largest_size) ++level;
+    return level;
+}
+
+const EffectCard kEnvironment{
+    .name = "environment",
+    .purpose = "Lights surfaces from a prefiltered map of their surroundings: diffuse light and reflections.",
+    .sources =
+        "S. Lagarde and L. Harduin, GDC Europe 2013, image based lighting; ATI CubeMapGen; R. Ramamoorthi and P. "
+        "Hanrahan, An Efficient Representation for Irradiance Environment Maps, SIGGRAPH 2001",
+    .kind = EffectKind::material,
+    .called_for_by = "Scene::environment",
+    .budget_row = "environment",
+    .tiers = {TierCard{{},
+                       "none of its own",
+                       "diffuse light by vertex; reflections mixed from two small RGBM8 cubes, so mirrors are soft"},
+              TierCard{{},
+                       "none of its own",
+                       "diffuse light by pixel; one fetch from the level of an RGBM8 cube that fits the power"},
+              TierCard{{}, "none of its own", "as console, from an RGBA16F cube and in highp"}},
+    .called_for = called_for,
+    .add_passes = nullptr,
+    .insertions = insertions,
+    .prepare = prepare,
+};
+
+}  // namespace halfframe

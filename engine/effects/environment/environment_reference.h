@@ -1,0 +1,29 @@
+// Light from an environment as its sources define it, in double: what environment.glsl is measured against. Shares no
+// code with it. Colours are handled one channel at a time.
+#pragma once
+
+#include <array>
+#include <functional>
+
+namespace halfframe::reference {
+
+/// Light that a white Lambert surface shows whose unit normal is (x, y, z): irradiance / pi. `terms` are the nine
+/// factors of EnvironmentMap::irradiance. Never below 0. R. Ramamoorthi and P. Hanrahan, SIGGRAPH 2001.
+[[nodiscard]] double irradiance(const std::array<double, 3>& normal, const std::array<double, 9>& terms);
+
+/// Light that an RGBM8 texel of 0..1 stands for: the square of channel * alpha * root_range.
+[[nodiscard]] double rgbm_light(double channel, double alpha, double root_range);
+
+/// What the low tier reflects at `smoothness` 0..1: linear from `diffuse` at 0 to `rough` at 0.35 to `sharp` at 0.75,
+/// which stays. Our own choice of places: see the README.
+[[nodiscard]] double low_reflection(double diffuse, double rough, double sharp, double smoothness);
+
+/// One channel of the light that leaves towards the unit vector `to_eye` when a surface of normal (0, 0, 1) reflects
+/// `radiance(direction)` by the Blinn microfacet model, without the albedo: the integral over the hemisphere of
+/// F(l.h) (power + 2) / (8 pi) (n.h)^power radiance(l) (n.l). `steps` a side of the grid of half vectors; 256 are
+/// within 1e-4 for radiance that is smooth over a degree. N. Hoffman, SIGGRAPH 2010. This is what fresnel_glossy()
+/// times a prefiltered level stands for.
+[[nodiscard]] double reflected_light(const std::function<double(const std::array<double, 3>&)>& radiance,
+                                     const std::array<double, 3>& to_eye, double specular, double power, int steps);
+
+}  // namespace halfframe::reference

@@ -1,0 +1,26 @@
+// Light from a prefiltered environment: S. Lagarde and L. Harduin, GDC Europe 2013, image based lighting. Plain functions
+// of values: they sample nothing, so tests can call each one alone.
+#include "environment/environment_limits.h"
+
+// What a white Lambert surface of normal n shows: nine spherical harmonics as polynomials of n, constants folded in on the
+// CPU (R. Ramamoorthi and P. Hanrahan, SIGGRAPH 2001). The CPU has windowed them; the comparison with 0 is for half, whose
+// rounding may fall below where they only just touch it.
+vec3 irradiance(vec3 n, vec3 c0, vec3 c1, vec3 c2, vec3 c3, vec3 c4, vec3 c5, vec3 c6, vec3 c7, vec3 c8) {
+    vec3 sum = c0 + c1 * n.y + c2 * n.z + c3 * n.x;
+    sum += c4 * (n.x * n.y) + c5 * (n.y * n.z) + c6 * (3.0 * n.z * n.z - 1.0);
+    sum += c7 * (n.x * n.z) + c8 * (n.x * n.x - n.y * n.y);
+    return max(sum, vec3(0.0));
+}
+
+// RGBM8 holds the root of the light, rgb = root / (alpha root_range): the square spends the eight bits as the eye does, and
+// black is alpha = 1/255, never 0. root_range: square root of the largest light, exposure included.
+vec3 unpacked_rgbm(vec4 stored, float root_range) {
+    vec3 root = stored.rgb * (stored.a * root_range);
+    return root * root;
+}
+
+// Low tier: what lies between the diffuse light and two cubes of smoothness ENVIRONMENT_ROUGH and ENVIRONMENT_SHARP.
+vec3 mixed_reflection(vec3 diffuse, vec3 rough, vec3 sharp, float smoothness) {
+    vec3 dull = mix(diffuse, rough, clamp(smoothness * (1.0 / ENVIRONMENT_ROUGH), 0.0, 1.0));
+    return mix(dull, sharp, clamp((smoothness - ENVIRONMENT_ROUGH) * (1.0 / (ENVIRONMENT_SHARP - ENVIRONMENT_ROUGH)), 0.0, 1.0));
+}

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -30,6 +31,24 @@ struct BuiltInScene {
 /// Lights for a scene that brings none: the documented `studio` rig, a sun, two points and an ambient, sized to the
 /// scene's box. Does nothing to a scene that has lights or an ambient. Returns true when it was added.
 bool add_studio_rig(Scene& scene);
+
+struct EnvironmentOptions {
+    int size = 128;                        ///< texels a side of level 0: 16, 32, 64, 128, 256 or 512
+    int threads = 0;                       ///< 0: as many as the machine has. The result is the same
+    std::filesystem::path cache_folder;    ///< keeps results by content; empty: nothing is kept
+    std::function<void(double)> progress;  ///< hears 0..1 on the caller's thread; throw to stop, it comes out again
+};
+
+struct LoadedEnvironment {
+    EnvironmentMap map;
+    std::vector<std::string> notices;  ///< what was mended or softened, one sentence each
+    bool from_cache = false;
+};
+
+/// A built-in environment by name, or an equirectangular .hdr or .exr file, prefiltered (content/environment). Takes a
+/// second or so when the cache does not have it. Bad file or unknown name: Error(input); bad option: Error(usage).
+[[nodiscard]] LoadedEnvironment environment(const std::string& name_or_file, const EnvironmentOptions& options = {});
+[[nodiscard]] std::vector<std::string> environment_names();
 
 /// A device mask by name (native|es3-minimum|es2-mali400-class|es2-minimum) or from a JSON file path.
 [[nodiscard]] gl::DeviceProfile device_profile(const std::string& name_or_path);

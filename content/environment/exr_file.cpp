@@ -52,8 +52,8 @@ void check_header(std::string_view bytes, const std::string& file) {
     const EXRBox2i& window = header.value.data_window;
     expect_equirectangular(static_cast<long long>(window.max_x) - window.min_x + 1,
                            static_cast<long long>(window.max_y) - window.min_y + 1, file);
-    // An environment has 3 or 4; a render with all its layers has some tens, and every one takes memory.
-    if (header.value.num_channels < 1 || header.value.num_channels > 16) {
+    // An environment has 3 or 4; a render with all its layers has tens, and each takes 134 MB at the largest size.
+    if (header.value.num_channels < 1 || header.value.num_channels > 8) {
         throw Error(Fault::input,
                     fmt::format("{}: has {} channels; export R, G and B alone", file, header.value.num_channels));
     }

@@ -18,7 +18,7 @@ constexpr double kSmallestWeight = 1e-6;
 /// Steps of the table of weights. Between two of them a lobe of power q bends by (13.8 / 8192)^2 / 8 = 4e-7 of itself.
 constexpr int kSteps = 8192;
 /// Lobes of less power are summed from the coarse taps.
-constexpr double kCoarseBelow = 100.0;
+constexpr double kCoarseBelow = 50.0;
 /// Texels a side that are computed as one piece of work and share their list of groups.
 constexpr int kTileSide = 8;
 

@@ -19,6 +19,7 @@ const std::vector<BuiltInScene>& built_in_scenes() {
         {"furnace", "three spheres in constant light: reads off the energy that comes back", &make_furnace},
         {"test_room", "a small room with one of everything: textures, mask, glass, metal, and all kinds of lights",
          &make_test_room},
+        {"spheres", "metals and dielectrics from rough to smooth, lit by the studio environment alone", &make_spheres},
         {"empty", "nothing at all: what a frame costs before anything is drawn", &make_empty},
     };
     return kScenes;

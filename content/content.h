@@ -29,8 +29,10 @@ struct BuiltInScene {
 [[nodiscard]] Scene open_scene(const std::string& scene);
 
 /// Lights for a scene that brings none: the documented `studio` rig, a sun, two points and an ambient, sized to the
-/// scene's box. Does nothing to a scene that has lights or an ambient. Returns true when it was added.
-bool add_studio_rig(Scene& scene);
+/// scene's box. An `environment` (the built-in one called studio goes with it) takes the place of the ambient, so that
+/// metals have something to reflect. Does nothing to a scene that has lights, an ambient or an environment. Returns
+/// true when it was added.
+bool add_studio_rig(Scene& scene, std::optional<EnvironmentMap> environment = std::nullopt);
 
 struct EnvironmentOptions {
     int size = 128;                        ///< texels a side of level 0: 16, 32, 64, 128, 256 or 512

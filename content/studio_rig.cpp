@@ -2,6 +2,7 @@
 #include "content/content.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace halfframe::content {
 namespace {
@@ -19,8 +20,8 @@ Light point_at(const char* name, const glm::vec3& position, const glm::vec3& col
 
 }  // namespace
 
-bool add_studio_rig(Scene& scene) {
-    if (!scene.lights.empty() || scene.ambient != glm::vec3(0.0f)) {
+bool add_studio_rig(Scene& scene, std::optional<EnvironmentMap> environment) {
+    if (!scene.lights.empty() || scene.ambient != glm::vec3(0.0f) || scene.environment) {
         return false;
     }
     const Box box = world_box(scene);
@@ -42,7 +43,8 @@ bool add_studio_rig(Scene& scene) {
         point_at("studio fill", centre + left * away_m, glm::vec3(0.12f, 0.15f, 0.20f), away_m, 4.0f * away_m));
     scene.lights.push_back(
         point_at("studio rim", centre + behind * away_m, glm::vec3(0.20f, 0.15f, 0.21f), away_m, 4.0f * away_m));
-    scene.ambient = glm::vec3(0.045f, 0.05f, 0.06f);
+    if (environment) scene.environment = std::move(environment);
+    else scene.ambient = glm::vec3(0.045f, 0.05f, 0.06f);
     return true;
 }
 

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "content/environment/lobe_powers.h"
 #include "engine/gl/fingerprint.h"
 
 namespace halfframe::content {
@@ -66,6 +67,7 @@ std::optional<StoredEnvironment> parse_payload(std::string_view bytes, int size)
         stored.map.levels.emplace_back(static_cast<std::size_t>(6 * side * side));
         if (!take(bytes, stored.map.levels.back().data(), stored.map.levels.back().size())) return {};
     }
+    stored.map.roughest_level = roughest_level(size);
     stored.map.powers.resize(stored.map.levels.size());
     if (!take(bytes, stored.map.powers.data(), stored.map.powers.size())) return {};
     if (!take(bytes, stored.map.irradiance.data(), stored.map.irradiance.size())) return {};

@@ -22,6 +22,12 @@ std::vector<double> blinn_powers(int size) {
     return powers;
 }
 
+int roughest_level(int size) {
+    int level = 0;
+    for (int side = size; side > 8; side /= 2) ++level;
+    return level;
+}
+
 double phong_power(double blinn_power) {
     const double p = blinn_power;
     return p / (4.00012 - 0.624042 / (p * p * p) + 0.728329 / (p * p) + 1.22792 / p) + 1.0;

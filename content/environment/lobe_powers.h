@@ -16,6 +16,9 @@ namespace halfframe::content {
 /// Of Blinn's (n.h)^power, by level; 0 for the last one, the mean.
 [[nodiscard]] std::vector<double> blinn_powers(int size);
 
+/// N - 1: the level of smoothness 0, for cubes of 16 texels a side or more.
+[[nodiscard]] int roughest_level(int size);
+
 /// Power q of the lobe (r.l)^q about the mirror direction r that a Blinn highlight (n.h)^power makes of a small light,
 /// the factor n.l of the light's irradiance included. Direct light has both, and the same lamp in the environment must
 /// give the same highlight. The angle r to l is twice n to h, hence power / 4 for narrow lobes; the fit for wide ones

@@ -113,6 +113,7 @@ void prefilter(const Light& light, int threads, const std::function<void(double)
     std::vector<double> costs;
     map.levels.clear();
     map.powers.clear();
+    map.roughest_level = roughest_level(map.size);
     for (std::size_t level = 0; level + 1 < blinn.size(); ++level) {
         const int size = map.size >> level;
         lobes.emplace_back(phong_power(blinn[level]));

@@ -142,6 +142,7 @@ View view_of(const Camera& camera, int width, int height) {
     view.width = width;
     view.height = height;
     view.orthographic = camera.orthographic;
+    view.exposure = camera.exposure;
     if (camera.orthographic) {
         const float half_width = camera.half_height_m * aspect;
         view.clip_from_view = glm::ortho(-half_width, half_width, -camera.half_height_m, camera.half_height_m,

@@ -171,6 +171,7 @@ struct View {
     [[nodiscard]] glm::mat4 clip_from_world() const { return clip_from_view * view_from_world; }
 };
 
+/// `width` x `height` pixels of what `camera` sees, at its exposure.
 [[nodiscard]] View view_of(const Camera& camera, int width, int height);
 /// `camera` with near and far moved towards each other until they just hold `scene_box`, never apart: the same picture
 /// from a depth buffer that separates more. An empty box leaves them alone.

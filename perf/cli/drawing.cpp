@@ -1,38 +1,16 @@
 // What render and report share.
 #include "perf/cli/drawing.h"
 
-#include <cstdlib>
-
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include "content/content.h"
+#include "perf/cli/cache_folder.h"
 
 namespace halfframe::cli {
 namespace {
 
 constexpr const char* kDefaultBudget = "ps3_30fps";
-
-/// $XDG_CACHE_HOME/halfframe, else ~/.cache/halfframe, else nothing: a user without a home keeps no programs.
-std::filesystem::path cache_folder(const std::string& wished) {
-    if (wished == "none") {
-        return {};
-    }
-    if (!wished.empty()) {
-        return wished;
-    }
-    const auto variable = [](const char* name) {
-        const char* value = std::getenv(name);
-        return std::filesystem::path(value != nullptr ? value : "");
-    };
-    if (const auto cache = variable("XDG_CACHE_HOME"); cache.is_absolute()) {
-        return cache / "halfframe";
-    }
-    if (const auto home = variable("HOME"); home.is_absolute()) {
-        return home / ".cache" / "halfframe";
-    }
-    return {};
-}
 
 }  // namespace
 
@@ -53,19 +31,15 @@ void add_drawing_options(CLI::App& command, DrawingOptions& options) {
         ->type_name("NAME|FILE");
     command.add_flag("--census", options.census,
                      "Draw once more with every target RGBA32F and count NaN and inf; exit 1 when there is one");
-    command
-        .add_option("--cache", options.cache,
-                    "Folder for program binaries, or none. Default: $XDG_CACHE_HOME/halfframe or ~/.cache/halfframe")
-        ->type_name("DIR|none");
     command.add_flag("--json", options.json,
                      "Standard output is one JSON value; everything else goes to standard error");
 }
 
-perf::DrawRequest draw_request(const DrawingOptions& options, Progress& progress) {
+perf::DrawRequest draw_request(const SceneOptions& scene_options, const DrawingOptions& options, Progress& progress) {
     perf::DrawRequest request;
     request.measured_frames = options.measured_frames;
     request.census = options.census;
-    request.program_cache_folder = cache_folder(options.cache);
+    request.program_cache_folder = cache_folder(scene_options.cache);
     request.between = [&progress](const std::string& step) {
         stop_if_interrupted();
         progress.show(step);
@@ -77,7 +51,7 @@ DrawnScene draw_with_options(GraphicsDevice& device, const std::string& scene, c
                              const DrawingOptions& drawing, const perf::DrawRequest& request) {
     const Budget budget = content::budget(drawing.budget.empty() ? kDefaultBudget : drawing.budget);
     request.between("opening " + scene);
-    const OpenedScene opened = open_with_options(scene, options, device.caps());
+    const OpenedScene opened = open_with_options(scene, options, device.caps(), request.between);
     DrawnScene drawn;
     drawn.result = perf::draw_scene(device.gl(), device.caps(), opened.scene, opened.view, opened.wishes, request);
     perf::FrameReport& report = drawn.result.report;

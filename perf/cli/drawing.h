@@ -16,16 +16,16 @@ namespace halfframe::cli {
 struct DrawingOptions {
     int measured_frames = 5;
     std::string budget;  ///< empty: the default one, whose frame is not judged on a software driver
-    std::string cache;   ///< empty: the user's cache folder
     bool census = false;
     bool json = false;
 };
 
-/// Adds --measure, --budget, --census, --cache and --json.
+/// Adds --measure, --budget, --census and --json.
 void add_drawing_options(CLI::App& command, DrawingOptions& options);
 
 /// The request that the options ask for.
-[[nodiscard]] perf::DrawRequest draw_request(const DrawingOptions& options, Progress& progress);
+[[nodiscard]] perf::DrawRequest draw_request(const SceneOptions& scene_options, const DrawingOptions& options,
+                                             Progress& progress);
 
 struct DrawnScene {
     perf::DrawResult result;

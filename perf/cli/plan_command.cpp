@@ -31,7 +31,13 @@ public:
     int run() override {
         check_options(options_);
         GraphicsDevice device(options_.device);
-        const OpenedScene opened = open_with_options(scene_, options_, device.caps());
+        Progress progress;
+        const auto between = [&](const std::string& step) {
+            stop_if_interrupted();
+            progress.show(step);
+        };
+        const OpenedScene opened = open_with_options(scene_, options_, device.caps(), between);
+        progress.clear();
         const FramePlan plan = plan_frame(opened.scene, opened.view, opened.wishes, device.caps(), all_effects());
         const std::optional<std::string> broken = broken_rule(plan, device.caps());
         stop_if_interrupted();

@@ -47,7 +47,7 @@ public:
         check_options(options_);
         check_outputs();
         Progress progress;
-        perf::DrawRequest request = draw_request(drawing_, progress);
+        perf::DrawRequest request = draw_request(options_, drawing_, progress);
         request.between("starting");
         request.trace = !trace_.empty();
         request.linear = wants_exr();

@@ -39,7 +39,7 @@ public:
         check_options(options_);
         make_folder();
         Progress progress;
-        const perf::DrawRequest request = draw_request(drawing_, progress);
+        const perf::DrawRequest request = draw_request(options_, drawing_, progress);
         request.between("starting");
         GraphicsDevice device(options_.device);
         std::vector<DrawnScene> drawn;

@@ -12,6 +12,8 @@
 #include "content/content.h"
 #include "engine/error.h"
 #include "engine/frame/effect_card.h"
+#include "perf/cli/cache_folder.h"
+#include "perf/cli/scene_light.h"
 #include "perf/cli/scene_settings.h"
 #include "perf/cli/spelling.h"
 
@@ -177,6 +179,16 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
             "tier and the device allow")
         ->type_name("FORMAT")
         ->capture_default_str();
+    command
+        .add_option("--environment", options.environment,
+                    "Surroundings that light the scene and show in it: studio, night_sky, an equirectangular .hdr or "
+                    ".exr file, or none. Default: the scene's own")
+        ->type_name("NAME|FILE");
+    command
+        .add_option("--cache", options.cache,
+                    "Folder for program binaries and filtered environments, or none. Default: "
+                    "$XDG_CACHE_HOME/halfframe or ~/.cache/halfframe")
+        ->type_name("DIR|none");
     add_device_options(command, options.device);
     CLI::Option* camera = command
                               .add_option("--camera", options.camera,
@@ -229,7 +241,8 @@ void check_options(const SceneOptions& options) {
     }
 }
 
-OpenedScene open_with_options(const std::string& scene, const SceneOptions& options, const gl::Caps& caps) {
+OpenedScene open_with_options(const std::string& scene, const SceneOptions& options, const gl::Caps& caps,
+                              const std::function<void(const std::string&)>& between) {
     check_options(options);
     const Size size = parse_size(options.size);
     const int largest = std::min(caps.max_texture_size, caps.max_renderbuffer_size);
@@ -242,10 +255,7 @@ OpenedScene open_with_options(const std::string& scene, const SceneOptions& opti
     const bool is_file = scene.ends_with(".gltf") || scene.ends_with(".glb");
     opened.label = is_file ? std::filesystem::path(scene).filename().string() : scene;
     opened.wishes = parse_wishes(options);
-    if (content::add_studio_rig(opened.scene)) {
-        opened.scene.notices.push_back(
-            "the scene brings no lights, so the studio rig lights it: a sun, two points, ambient");
-    }
+    light(opened.scene, options.environment, cache_folder(options.cache), between);
     const Camera camera = tightened(choose_camera(opened.scene, options, size), world_box(opened.scene));
     opened.view = view_of(camera, size.width, size.height);
     for (const std::string& setting : options.settings) {
@@ -280,6 +290,7 @@ std::string options_text(const SceneOptions& options) {
     }
     add("--arithmetic", options.arithmetic, defaults.arithmetic);
     add("--storage", options.storage, defaults.storage);
+    add("--environment", options.environment, "");
     add("--device", options.device.device, defaults.device.device);
     add("--context", options.device.context, defaults.device.context);
     add("--camera", options.camera, "");

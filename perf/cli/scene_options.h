@@ -1,6 +1,7 @@
 // The options that decide what a frame of a scene is, shared by render, report and plan.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,6 +22,8 @@ struct SceneOptions {
     std::vector<std::string> tiers;
     std::string arithmetic = "auto";
     std::string storage = "auto";
+    std::string environment;  ///< empty: the scene's own
+    std::string cache;        ///< empty: the user's cache folder
     std::string camera;
     std::string eye;
     std::string target;
@@ -41,9 +44,10 @@ struct OpenedScene {
 
 /// Checks every option before the scene is opened: Error(usage) with the nearest spelling. Loads the scene, frames it
 /// when it brings no camera, lights it with the studio rig when it brings no lights; both leave a notice in the scene.
-/// A size above what `caps` allows is Error(usage).
-[[nodiscard]] OpenedScene open_with_options(const std::string& scene, const SceneOptions& options,
-                                            const gl::Caps& caps);
+/// A size above what `caps` allows is Error(usage). `between` hears a word for the user from time to time and throws to
+/// stop.
+[[nodiscard]] OpenedScene open_with_options(const std::string& scene, const SceneOptions& options, const gl::Caps& caps,
+                                            const std::function<void(const std::string&)>& between);
 
 /// Error(usage) for anything in the options that can be seen to be wrong without a context or a scene.
 void check_options(const SceneOptions& options);

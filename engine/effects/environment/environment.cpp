@@ -60,8 +60,8 @@ public:
         say_what_is_cut(renderer);
         const int largest = renderer.caps().max_cube_map_size;
         if (tier_ == Tier::low) {
-            sharp_ = upload(renderer, level_for(map_, ENVIRONMENT_SHARP, largest), 1);
-            rough_ = upload(renderer, level_for(map_, ENVIRONMENT_ROUGH, largest), 1);
+            sharp_ = upload(renderer, level_for(map_, static_cast<float>(ENVIRONMENT_SHARP), largest), 1);
+            rough_ = upload(renderer, level_for(map_, static_cast<float>(ENVIRONMENT_ROUGH), largest), 1);
             return;
         }
         first_level_ = level_for(map_, 1.0f, largest);

@@ -135,8 +135,8 @@ TEST_F(Environment, LowMixesTwoCubesAndTheDiffuseLight) {
         return glm::vec3(level == 1 ? 0.9f : level == 3 ? 0.3f : 0.0f);
     });
     map.irradiance[0] = glm::vec3(0.1f);
-    ASSERT_EQ(level_for(map, ENVIRONMENT_SHARP, 4096), 1);
-    ASSERT_EQ(level_for(map, ENVIRONMENT_ROUGH, 4096), 3);
+    ASSERT_EQ(level_for(map, static_cast<float>(ENVIRONMENT_SHARP), 4096), 1);
+    ASSERT_EQ(level_for(map, static_cast<float>(ENVIRONMENT_ROUGH), 4096), 3);
     for (const double smoothness : {0.0, 0.2, 0.35, 0.6, 0.75, 1.0}) {
         Scene scene = wide_square();
         scene.environment = map;

@@ -232,6 +232,78 @@ FunctionEntry light() {
     return direct;
 }
 
+FunctionEntry widened_power() {
+    FunctionEntry widened = entry("area_power", "power 2..2048, radius over distance 0..1");
+    widened.arguments = [] {
+        const Columns u = unit_cube(2);
+        return std::vector<Argument>{{"power", {mapped(u[0], power_of)}},
+                                     {"ratio", {mapped(u[1], [](double x) { return x * x; })}}};
+    };
+    widened.reference = [](const Lane& in, std::size_t) { return reference::area_power(in(0), in(1)); };
+    widened.unit = Unit::of_peak;
+    widened.peak = widened.reference;
+    widened.method = {0.09, "u + 1 / (1 + u/2) stands for u / (1 - e^-u), 7.6 % apart where u is 1.3"};
+    widened.half = {4e-3, "some seven roundings of 2^-12"};
+    widened.flushed = {4e-3, "as half"};
+    return widened;
+}
+
+/// Lights of 0 to 30 degrees, wholly above the horizon, near the mirror direction and away from it; highlight alone.
+std::vector<Argument> sphere_lights() {
+    const Columns u = unit_cube(7);
+    const auto all = [&](double (*value)(double)) { return mapped(u[6], value); };
+    const std::vector<double> zero = all([](double) { return 0.0; });
+    const std::vector<double> one = all([](double) { return 1.0; });
+    std::vector<Argument> arguments{
+        {"albedo", {zero, zero, zero}},
+        {"specular", {one, all([](double x) { return 0.04 + 0.96 * x; }), all([](double) { return 0.0437; })}},
+        {"power", {mapped(u[0], power_of)}},
+        {"n", {}},
+        {"v", {}},
+        {"l", {}},
+        {"radiance", {one, one, one}},
+        {"ratio", {mapped(u[5], [](double x) { return 0.5 * x * x; })}}};
+    for (std::size_t i = 0; i < u[0].size(); ++i) {
+        // View and light 0 to 45 degrees from the half vector, n up to three widths of the smeared lobe from it.
+        const Vector h = direction(u[1][i], u[2][i]);
+        const double half_angle_rad = 0.25 * kPi * u[3][i];
+        const double ratio = arguments[7].values[0][i];
+        const double width_rad = std::sqrt(1.0 / arguments[2].values[0][i] + ratio * ratio / 8.0);
+        add(arguments[3].values, tilted(h, std::min(3.0 * width_rad, 0.14 * kPi) * u[4][i], u[6][i]));
+        const Vector v = tilted(h, half_angle_rad, 0.25);
+        add(arguments[4].values, v);
+        const double v_dot_h = std::cos(half_angle_rad);
+        add(arguments[5].values,
+            {2.0 * v_dot_h * h[0] - v[0], 2.0 * v_dot_h * h[1] - v[1], 2.0 * v_dot_h * h[2] - v[2]});
+    }
+    return arguments;
+}
+
+FunctionEntry spheres() {
+    FunctionEntry sphere = entry("sphere_light",
+                                 "highlight alone, power 2..2048, radius over distance 0..0.5, light and view to 45 "
+                                 "degrees from h, n to 3 widths of the lobe from h");
+    sphere.arguments = sphere_lights;
+    sphere.reference = [](const Lane& in, std::size_t s) {
+        return reference::sphere_light(in(0, s), in(1, s), in(2), vector_of(in, 3), vector_of(in, 4), vector_of(in, 5),
+                                       in(6, s), in(7));
+    };
+    sphere.unit = Unit::of_peak;
+    sphere.peak = [](const Lane& in, std::size_t s) {  // the highlight where it is highest: n = h
+        const Vector v = vector_of(in, 4);
+        const Vector l = vector_of(in, 5);
+        Vector h{l[0] + v[0], l[1] + v[1], l[2] + v[2]};
+        const double length = std::hypot(h[0], h[1], h[2]);
+        for (double& part : h) part /= length;
+        return reference::sphere_light(in(0, s), in(1, s), in(2), h, v, l, in(6, s), in(7));
+    };
+    sphere.method = {0.65, "a mirror shows a disc with a rim; a lobe of its height is 1/e there: 1 - 1/e of the peak"};
+    sphere.in_float = {1e-5, "roundings of 6e-8, times exponents up to 20"};
+    sphere.half = {6e-3, "the half lobe's error twice over: of the lobe, and of the power that widens it"};
+    sphere.flushed = {6e-3, "as half"};
+    return sphere;
+}
+
 }  // namespace
 
 std::vector<FunctionEntry> surface_functions() {
@@ -240,6 +312,8 @@ std::vector<FunctionEntry> surface_functions() {
         list.insert(list.end(), part.begin(), part.end());
     }
     list.push_back(light());
+    list.push_back(widened_power());
+    list.push_back(spheres());
     return list;
 }
 

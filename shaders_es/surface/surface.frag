@@ -52,6 +52,9 @@ uniform FULL vec4 light_position[SURFACE_LIGHT_LIMIT];   // FULL: metres; xyz fr
 uniform HALF vec4 light_color[SURFACE_LIGHT_LIMIT];      // rgb, w = spot cos_scale (0: point)
 uniform HALF vec4 light_direction[SURFACE_LIGHT_LIMIT];  // xyz unit, w = cos outer
 uniform HALF vec4 light_count;                           // x
+#ifdef AREA_LIGHTS
+uniform FULL vec4 light_size[SURFACE_LIGHT_LIMIT];  // FULL: metres squared; x radius [m], y radius^2; 0: a point
+#endif
 #endif
 #endif
 #endif
@@ -133,11 +136,19 @@ void main() {
         FULL vec3 to_light = light_position[i].xyz + vertex_to_eye;
         FULL float distance_squared = dot(to_light, to_light);
         FULL vec3 l = to_light * inversesqrt(max(distance_squared, 1e-8));
+#ifdef AREA_LIGHTS
+        distance_squared = max(distance_squared, light_size[i].y);  // inside the sphere it is as bright as on it
+#endif
         float falloff = distance_falloff(distance_squared, light_position[i].w);
         if (light_color[i].w > 0.0) {
             falloff *= cone_falloff(dot(-l, light_direction[i].xyz), light_direction[i].w, light_color[i].w);
         }
+#ifdef AREA_LIGHTS
+        light += sphere_light(albedo, specular, power, n, v, l, light_color[i].rgb * falloff,
+                              light_size[i].x * inversesqrt(max(distance_squared, 1e-8)));
+#else
         light += direct_light(albedo, specular, power, n, v, l, light_color[i].rgb * falloff);
+#endif
     }
 #endif
 #endif

@@ -134,6 +134,25 @@ TEST(WrongFormula, DirectLightWithoutEnergyNormalisation) {
     });
 }
 
+/// direct_light() with another power: what an area light would be if `power` were its widened one.
+double light_of_power(const Lane& in, std::size_t s, double power) {
+    return reference::direct_light(in(0, s), in(1, s), power, vector_of(in, 3), vector_of(in, 4), vector_of(in, 5),
+                                   in(6, s));
+}
+
+TEST(WrongFormula, SphereThatIsAPointThatWidensWithDistanceOrThatGainsEnergy) {
+    expect_caught("area_power", [](const Lane& in, std::size_t) { return in(0); });
+    expect_caught("sphere_light", [](const Lane& in, std::size_t s) { return light_of_power(in, s, in(2)); });
+    // The talk's product with a distance falloff: near spheres would be the sharp ones.
+    expect_caught("sphere_light",
+                  [](const Lane& in, std::size_t s) { return light_of_power(in, s, in(2) * in(7) * in(7)); });
+    // Normalised by the unwidened power: the highlight gets wider and no lower.
+    expect_caught("sphere_light", [](const Lane& in, std::size_t s) {
+        const double widened = reference::area_power(in(2), in(7));
+        return light_of_power(in, s, widened) * (in(2) + 2.0) / (widened + 2.0);
+    });
+}
+
 TEST(Measure, AResultThatIsNotFiniteIsCountedAndRefused) {
     FunctionEntry entry = entries_of("fresnel_schlick").front();
     const auto sound = entry.arguments;

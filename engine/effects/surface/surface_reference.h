@@ -42,4 +42,16 @@ using Vector = std::array<double, 3>;
 [[nodiscard]] double direct_light(double albedo, double specular, double power, const Vector& n, const Vector& v,
                                   const Vector& l, double radiance);
 
+/// The power whose lobe peaks as high as the lobe of `power` smeared over a sphere light: the mean of exp(-power a^2 /
+/// 2) over half angles a up to ratio / 2 is (1 - exp(-u)) / u of the peak, u = power ratio^2 / 8. `ratio` 0..1 is the
+/// sphere's radius over its distance. Derived for light and view near the normal.
+[[nodiscard]] double area_power(double power, double ratio);
+
+/// direct_light() of a sphere of even radiance, summed over the sphere itself: what a widened power only imitates. `l`
+/// leads to its centre; `radiance` is irradiance / pi of a surface that faces it; `ratio` 0..1 is radius over distance,
+/// the sine of its angular radius. Parts below the horizon give nothing. Midpoint sum, steps of a third of the lobe's
+/// width.
+[[nodiscard]] double sphere_light(double albedo, double specular, double power, const Vector& n, const Vector& v,
+                                  const Vector& l, double radiance, double ratio);
+
 }  // namespace halfframe::reference

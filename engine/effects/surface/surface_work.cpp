@@ -25,7 +25,7 @@ const Material& material_of(const Renderer& renderer, const Surface& surface) {
 }  // namespace
 
 std::vector<std::string_view> SurfaceWork::defines_of(const Renderer& renderer, const Surface& surface,
-                                                      bool lit_locally) const {
+                                                      std::span<const int> lights) const {
     const Material& material = material_of(renderer, surface);
     const DrawMesh& mesh = renderer.mesh(surface.mesh);
     const bool lit = mesh.has_normals;
@@ -39,7 +39,13 @@ std::vector<std::string_view> SurfaceWork::defines_of(const Renderer& renderer, 
     if (material.alpha_mode == AlphaMode::blend) defines.push_back("ALPHA_BLEND");
     if (lit && material.double_sided) defines.push_back("DOUBLE_SIDED");
     if (lit && sun_) defines.push_back("SUN");
-    if (lit && lit_locally) defines.push_back("LOCAL_LIGHTS");
+    if (lit && !lights.empty()) defines.push_back("LOCAL_LIGHTS");
+    const auto has_radius = [&](int light) {
+        return renderer.scene().lights[static_cast<std::size_t>(light)].radius_m > 0.0f;
+    };
+    // At low every light is a point: it has no highlight that a sphere could widen.
+    if (lit && std::ranges::any_of(lights, has_radius) && renderer.tier_of("surface") != Tier::low)
+        defines.push_back("AREA_LIGHTS");
     if (!lit) defines.push_back("UNLIT");  // glTF 2.0, 3.7.2.1: points and lines without normals are not lit
     if (mesh.mode == GL_POINTS) defines.push_back("POINTS");
     if (renderer.plan().storage == gl::PixelFormat::rgb10_a2) defines.push_back("SCENE_COLOR_PACKED");
@@ -66,6 +72,7 @@ int SurfaceWork::variant_of(Renderer& renderer, const std::vector<std::string_vi
     variant.light_position = program.uniform_if_used("light_position");
     variant.light_color = program.uniform_if_used("light_color");
     variant.light_direction = program.uniform_if_used("light_direction");
+    variant.light_size = program.uniform_if_used("light_size");
     variant.light_count = program.uniform_if_used("light_count");
     renderer.use(program);
     for (const auto& [sampler, unit] :
@@ -96,7 +103,7 @@ void SurfaceWork::add_draw(Renderer& renderer, int index) {
         renderer.add_notice(fmt::format("{} lights reach {} and {} are drawn: the {} weakest are left out",
                                         left_out + SURFACE_LIGHT_LIMIT, surface.name, SURFACE_LIGHT_LIMIT, left_out));
     }
-    const auto defines = defines_of(renderer, surface, !draw.lights.empty());
+    const auto defines = defines_of(renderer, surface, draw.lights);
     draw.variant = variant_of(renderer, defines);
     const bool decoded = renderer.tier_of(card_.name) != Tier::low && renderer.caps().srgb_textures;
     const auto uses = [&](std::string_view define) { return std::ranges::find(defines, define) != defines.end(); };
@@ -185,7 +192,7 @@ void SurfaceWork::set_matrices(Renderer& renderer, const View& view, const Varia
 
 void SurfaceWork::set_lights(Renderer& renderer, const View& view, const Variant& variant, const Draw& draw) {
     if (variant.light_position < 0) return;
-    std::array<glm::vec4, SURFACE_LIGHT_LIMIT> position{}, color{}, direction{};
+    std::array<glm::vec4, SURFACE_LIGHT_LIMIT> position{}, color{}, direction{}, size{};
     for (std::size_t i = 0; i < draw.lights.size(); ++i) {
         const Light& light = renderer.scene().lights[static_cast<std::size_t>(draw.lights[i])];
         const glm::dvec3 from_eye = glm::dvec3(light.position) - glm::dvec3(view.eye);
@@ -197,12 +204,15 @@ void SurfaceWork::set_lights(Renderer& renderer, const View& view, const Variant
             direction[i] = glm::vec4(glm::normalize(light.direction), cos_outer);
         }
         color[i] = glm::vec4(light.color * view.exposure, cone_scale);
+        const float radius_m = std::max(light.radius_m, 0.0f);
+        size[i] = glm::vec4(radius_m, radius_m * radius_m, 0.0f, 0.0f);
     }
     const auto count = static_cast<GLsizei>(draw.lights.size());
     gl::EntryPoints& gl = renderer.gl();
     gl.Uniform4fv(variant.light_position, count, &position[0].x);
     gl.Uniform4fv(variant.light_color, count, &color[0].x);
     gl.Uniform4fv(variant.light_direction, count, &direction[0].x);
+    if (variant.light_size >= 0) gl.Uniform4fv(variant.light_size, count, &size[0].x);
     set(gl, variant.light_count, glm::vec4(static_cast<float>(count), 0.0f, 0.0f, 0.0f));
 }
 

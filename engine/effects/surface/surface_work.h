@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "engine/frame/effect_card.h"
@@ -26,7 +27,7 @@ private:
         int clip_from_local = -1, eye_from_local = -1, normal_from_local = -1, toward_eye = -1;
         int base_color = -1, emissive = -1, factors = -1, ambient = -1;
         int sun_direction = -1, sun_color = -1;
-        int light_position = -1, light_color = -1, light_direction = -1, light_count = -1;
+        int light_position = -1, light_color = -1, light_direction = -1, light_size = -1, light_count = -1;
     };
     struct TextureBinding {
         int unit;
@@ -42,7 +43,7 @@ private:
     };
 
     [[nodiscard]] std::vector<std::string_view> defines_of(const Renderer& renderer, const Surface& surface,
-                                                           bool lit_locally) const;
+                                                           std::span<const int> lights) const;
     int variant_of(Renderer& renderer, const std::vector<std::string_view>& defines);
     void add_draw(Renderer& renderer, int surface);
     void sort_by_distance(const Renderer& renderer, const View& view);

@@ -20,6 +20,8 @@ const std::vector<BuiltInScene>& built_in_scenes() {
         {"test_room", "a small room with one of everything: textures, mask, glass, metal, and all kinds of lights",
          &make_test_room},
         {"spheres", "metals and dielectrics from rough to smooth, lit by the studio environment alone", &make_spheres},
+        {"lamps", "panels from smooth to rough under shining spheres and points: what the radius of a light does",
+         &make_lamps},
         {"empty", "nothing at all: what a frame costs before anything is drawn", &make_empty},
     };
     return kScenes;

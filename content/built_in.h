@@ -11,6 +11,7 @@ namespace halfframe::content {
 [[nodiscard]] Scene make_empty();
 [[nodiscard]] Scene make_furnace();
 [[nodiscard]] Scene make_spheres();
+[[nodiscard]] Scene make_lamps();
 [[nodiscard]] Scene make_test_room();
 
 /// Each of these adds one thing to a scene and returns its index.

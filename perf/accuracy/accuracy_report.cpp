@@ -43,6 +43,30 @@ Json gap_json(const FunctionAccuracy& function, const Gap& gap, const Bound& bou
             {"not_finite", gap.not_finite}, {"worst_input", input}};
 }
 
+std::string signed_figure(double value) { return value == 0.0 ? "0" : fmt::format("{:+.3g}", value); }
+
+Json model_json(const ModelAccuracy& model) {
+    const ModelEntry& entry = model.entry;
+    Json place = Json::object();
+    for (std::size_t axis = 0; axis < entry.axes.size(); ++axis) {
+        place[entry.axes[axis]] = model.errors[model.worst].at[axis];
+    }
+    return {{"effect", entry.effect},
+            {"model", entry.model},
+            {"truth", entry.truth},
+            {"unit", entry.unit},
+            {"places", model.errors.size()},
+            {"lowest", model.lowest},
+            {"highest", model.highest},
+            {"mean", model.mean},
+            {"worst_place", place},
+            {"largest_bound", entry.largest.at_most},
+            {"largest_bound_reason", entry.largest.reason},
+            {"mean_bound", entry.mean.at_most},
+            {"mean_bound_reason", entry.mean.reason},
+            {"violations", model.violations}};
+}
+
 }  // namespace
 
 std::string accuracy_text(std::span<const FunctionAccuracy> functions) {
@@ -88,7 +112,37 @@ std::string accuracy_text(std::span<const FunctionAccuracy> functions) {
            table.text() + "\nInputs, and the worst of them\n" + inputs + (exceeded.empty() ? "" : "\n" + exceeded);
 }
 
-nlohmann::ordered_json accuracy_json(std::span<const FunctionAccuracy> functions) {
+std::string models_text(std::span<const ModelAccuracy> models) {
+    if (models.empty()) return "";
+    perf::TextTable table({{"effect", Align::left},
+                           {"model", Align::left},
+                           {"error", Align::left},
+                           {"lowest", Align::right},
+                           {"highest", Align::right},
+                           {"mean", Align::right},
+                           {"places", Align::right},
+                           {"bounds", Align::left}});
+    std::string places;
+    std::string exceeded;
+    for (const ModelAccuracy& model : models) {
+        const ModelEntry& entry = model.entry;
+        table.add_row({entry.effect, entry.model, entry.unit, signed_figure(model.lowest), signed_figure(model.highest),
+                       figure(model.mean), std::to_string(model.errors.size()),
+                       model.violations.empty() ? "hold" : "exceeded"});
+        places += fmt::format("{}, {}\n  truth  {}\n  worst ", entry.effect, entry.model, entry.truth);
+        for (std::size_t axis = 0; axis < entry.axes.size(); ++axis) {
+            places += fmt::format(" {} {:g}", entry.axes[axis], model.errors[model.worst].at[axis]);
+        }
+        places += "\n";
+        for (const std::string& violation : model.violations) exceeded += "exceeded: " + violation + "\n";
+    }
+    return "\nModels against what they stand for, both in double: what is lost (lowest), what is gained (highest), and "
+           "the\nmean size of the error.\n\n" +
+           table.text() + "\n" + places + (exceeded.empty() ? "" : "\n" + exceeded);
+}
+
+nlohmann::ordered_json accuracy_json(std::span<const FunctionAccuracy> functions,
+                                     std::span<const ModelAccuracy> models) {
     Json all = Json::array();
     for (const FunctionAccuracy& function : functions) {
         const FunctionEntry& entry = function.entry;
@@ -110,6 +164,7 @@ nlohmann::ordered_json accuracy_json(std::span<const FunctionAccuracy> functions
                        {"arithmetic_gap", arithmetics},
                        {"violations", function.violations}});
     }
+    for (const ModelAccuracy& model : models) all.push_back(model_json(model));
     return all;
 }
 

@@ -10,11 +10,14 @@
 #include "engine/error.h"
 #include "engine/frame/effect_card.h"
 #include "perf/accuracy/accuracy_report.h"
+#include "perf/accuracy/error_map.h"
 #include "perf/accuracy/function_list.h"
 #include "perf/accuracy/measure.h"
+#include "perf/accuracy/model_list.h"
 #include "perf/cli/command.h"
 #include "perf/cli/spelling.h"
 #include "perf/cli/terminal.h"
+#include "perf/report/picture_file.h"
 
 namespace halfframe::cli {
 namespace {
@@ -52,6 +55,9 @@ public:
             "minimum add");
         command.add_option("EFFECT", effects_, "Effects to measure; without one, all that have such functions");
         command.add_flag("--json", json_, "Standard output is one JSON value");
+        command.add_option("--maps", maps_,
+                           "Also write a .png with a map for each model: where it is too bright (red) or too dark "
+                           "(blue)");
         command.footer(kExitCodes);
     }
 
@@ -68,18 +74,37 @@ public:
             functions.push_back(accuracy::measure(entry));
             sound = sound && functions.back().violations.empty();
         }
+        std::vector<accuracy::ModelAccuracy> models;
+        for (const accuracy::ModelEntry& entry : accuracy::model_list()) {
+            if (!effects_.empty() && !holds(effects_, entry.effect)) continue;
+            stop_if_interrupted();
+            progress.show(entry.effect + ", " + entry.model);
+            models.push_back(accuracy::measure(entry));
+            sound = sound && models.back().violations.empty();
+        }
         progress.clear();
+        if (!maps_.empty()) write_maps(models);
         if (json_) {
-            print_json(accuracy::accuracy_json(functions));
+            print_json(accuracy::accuracy_json(functions, models));
         } else {
             print(accuracy::accuracy_text(functions));
+            print(accuracy::models_text(models));
         }
         return sound ? 0 : static_cast<int>(Fault::check);
     }
 
 private:
+    void write_maps(const std::vector<accuracy::ModelAccuracy>& models) const {
+        if (models.empty()) {
+            throw Error(Fault::usage,
+                        "--maps: the effects named have no models to map; without a name, all are measured");
+        }
+        perf::write_png(maps_, accuracy::error_maps(models));
+    }
+
     std::vector<std::string> effects_;
     bool json_ = false;
+    std::string maps_;
 };
 
 }  // namespace

@@ -1,0 +1,55 @@
+// Which shading models are measured against what they stand for. No shader runs: both sides are double references, and
+// the function list shows that the shaders say the same.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "perf/accuracy/function_list.h"
+
+namespace halfframe::accuracy {
+
+/// The error (model less truth) in one place of the domain, at[i] on axis i.
+struct ModelError {
+    std::vector<double> at;
+    double error = 0.0;
+};
+
+struct ModelEntry {
+    std::string effect;
+    std::string model;
+    const char* truth = "";
+    const char* unit = "";          ///< of the error
+    std::vector<std::string> axes;  ///< the first two span the map, the worst of the others is shown
+    std::function<std::vector<ModelError>()> errors;
+    Bound largest;  ///< of any error's size
+    Bound mean;     ///< of the mean of the sizes
+};
+
+struct ModelAccuracy {
+    ModelEntry entry;
+    std::vector<ModelError> errors;
+    double lowest = 0.0, highest = 0.0;  ///< with sign: what is lost, what is gained; 0 when nothing is
+    double mean = 0.0;                   ///< of the sizes
+    std::size_t worst = 0;               ///< index of the largest size
+    std::vector<std::string> violations;
+};
+
+/// Evaluates an entry. Mistake: an error that is not finite.
+[[nodiscard]] ModelAccuracy measure(const ModelEntry& entry);
+
+/// Every model of the effects that are in this build.
+[[nodiscard]] std::vector<ModelEntry> model_list();
+
+// The models of the surface, with what a test may plant: how a roughness becomes a power, how a smoothness brightens.
+using PowerOfRoughness = double (*)(double roughness);
+using GlossyFresnel = double (*)(double specular, double smoothness, double n_v);
+[[nodiscard]] ModelEntry reflectance_of_mapping(PowerOfRoughness power);
+[[nodiscard]] ModelEntry radiance_of_mapping(PowerOfRoughness power);
+[[nodiscard]] ModelEntry furnace_of_ambient(GlossyFresnel fresnel);
+[[nodiscard]] ModelEntry furnace_of_direct_light();
+[[nodiscard]] ModelEntry glossy_fresnel_of_split_sum(GlossyFresnel fresnel);
+
+}  // namespace halfframe::accuracy

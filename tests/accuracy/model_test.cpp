@@ -1,0 +1,149 @@
+// Models against what they stand for: within their bounds, bounds that catch a wrong model, and truths that are true.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "engine/effects/surface/surface_model_reference.h"
+#include "engine/effects/surface/surface_reference.h"
+#include "perf/accuracy/error_map.h"
+#include "perf/accuracy/model_list.h"
+
+namespace halfframe::accuracy {
+namespace {
+
+using reference::Cosines;
+
+TEST(Models, EveryModelIsWithinItsBounds) {
+    std::size_t measured = 0;
+    for (const ModelEntry& entry : model_list()) {
+        const ModelAccuracy found = measure(entry);
+        for (const std::string& violation : found.violations) ADD_FAILURE() << violation;
+        EXPECT_GE(found.errors.size(), 500u) << entry.model;
+        EXPECT_GT(found.mean, 0.0) << entry.model << ": a model without an error was compared with itself";
+        // Nothing random is in these figures, so a bound can be near what it bounds.
+        EXPECT_LT(entry.mean.at_most, 1.25 * found.mean) << entry.model;
+        EXPECT_GT(std::string(entry.largest.reason).size(), 20u) << entry.model;
+        EXPECT_GT(std::string(entry.mean.reason).size(), 20u) << entry.model;
+        ++measured;
+    }
+    EXPECT_GE(measured, 5u);  // when this was written
+}
+
+TEST(Models, ALobeOfAnotherWidthIsCaught) {
+    const PowerOfRoughness wrong[] = {
+        [](double roughness) { return std::clamp(2.0 / (roughness * roughness) - 2.0, 2.0, 2048.0); },
+        [](double roughness) { return std::exp2(10.0 * (1.0 - roughness) + 1.0); },
+        [](double roughness) { return std::clamp(4.0 * reference::power_from_roughness(roughness), 2.0, 2048.0); },
+        [](double roughness) { return std::clamp(0.25 * reference::power_from_roughness(roughness), 2.0, 2048.0); },
+    };
+    for (const PowerOfRoughness power : wrong) {
+        const ModelAccuracy found = measure(radiance_of_mapping(power));
+        EXPECT_FALSE(found.violations.empty()) << found.mean;
+    }
+}
+
+TEST(Models, AnotherGlossyFresnelIsCaught) {
+    const GlossyFresnel schlick = [](double specular, double, double n_v) {
+        return reference::fresnel_schlick(specular, n_v);
+    };
+    const GlossyFresnel none = [](double specular, double, double) { return specular; };
+    EXPECT_FALSE(measure(glossy_fresnel_of_split_sum(schlick)).violations.empty());
+    EXPECT_FALSE(measure(glossy_fresnel_of_split_sum(none)).violations.empty());
+    EXPECT_FALSE(measure(furnace_of_ambient(schlick)).violations.empty());
+}
+
+TEST(Models, TheTwoFurnacesThatLoseNothing) {
+    // Albedo 1 and specular 0 at smoothness 0; albedo 0 and specular 1 at any: both give all back from any angle.
+    int places = 0;
+    for (const ModelError& place : measure(furnace_of_ambient(&reference::fresnel_glossy)).errors) {
+        const double smoothness = place.at[1], specular = place.at[2];
+        if ((specular == 0.0 && smoothness == 0.0) || specular == 1.0) {
+            EXPECT_NEAR(place.error, 0.0, 1e-15) << specular;
+            ++places;
+        }
+    }
+    EXPECT_EQ(places, 20 + 21 * 20);  // cosines; smoothnesses times cosines
+}
+
+/// A sum over an even grid of light directions; shares no sampling with the split sums.
+template <typename Brdf>
+double reflectance(double n_v, Brdf brdf) {
+    constexpr int kHeights = 1024, kTurns = 256;
+    const double sine = std::sqrt(1.0 - n_v * n_v);
+    double sum = 0.0;
+    for (int i = 0; i < kHeights; ++i) {
+        const double n_l = (i + 0.5) / kHeights;
+        for (int j = 0; j < kTurns; ++j) {
+            const double l_v =
+                n_l * n_v + std::sqrt(1.0 - n_l * n_l) * sine * std::cos((j + 0.5) / kTurns * std::numbers::pi);
+            const double l_h = std::sqrt(0.5 * (1.0 + l_v));
+            sum += brdf(Cosines{n_l, n_v, std::min((n_l + n_v) / (2.0 * l_h), 1.0), l_h}) * n_l;
+        }
+    }
+    return sum * 2.0 * std::numbers::pi / (kHeights * kTurns);
+}
+
+TEST(ModelTruths, SplitSumsAreTheIntegralsOfTheirBrdfs) {
+    for (const double n_v : {0.2, 0.7, 1.0}) {
+        for (const double roughness : {0.4, 0.7, 1.0}) {
+            for (const double metallic : {0.0, 1.0}) {
+                const std::string where = "n.v " + std::to_string(n_v) + " roughness " + std::to_string(roughness);
+                const double gltf = reflectance(
+                    n_v, [&](const Cosines& at) { return reference::gltf_brdf(0.8, metallic, roughness, at); });
+                // 3e-3: the split sum's 256 heights where the horizon cuts them, and this grid's at a roughness of 0.4
+                EXPECT_NEAR(reference::gltf_reflectance(0.8, metallic, roughness, n_v), gltf, 3e-3) << where;
+                EXPECT_LE(gltf, 1.0) << where;
+                const double power = reference::power_from_roughness(roughness);
+                const double talk =
+                    reflectance(n_v, [&](const Cosines& at) { return reference::talk_brdf(0.3, 0.6, power, at); });
+                EXPECT_NEAR(reference::talk_reflectance(0.3, 0.6, power, n_v), talk, 3e-3) << where;
+            }
+        }
+    }
+}
+
+TEST(ModelTruths, KnownEnds) {
+    for (const double n_v : {0.05, 0.5, 1.0}) {
+        const reference::SplitSum mirror = reference::split_sum_ggx(0.0, n_v);
+        EXPECT_NEAR(mirror.of(1.0), 1.0, 1e-12) << "a smooth mirror loses nothing";
+        EXPECT_NEAR(mirror.of(0.04), reference::fresnel_schlick(0.04, n_v), 1e-12) << "and shows Schlick's Fresnel";
+        // With V = 1 a mirror sends n.l l.h / n.h = n.v^2 back. 2e-3: the lobe of the power of 2^20 is not yet a point.
+        EXPECT_NEAR(reference::split_sum_blinn(1048576.0, n_v).of(1.0), n_v * n_v, 2e-3);
+    }
+    // Light and view change places: both models are reciprocal.
+    const Cosines there{0.3, 0.8, 0.9, 0.7}, back{0.8, 0.3, 0.9, 0.7};
+    EXPECT_DOUBLE_EQ(reference::gltf_brdf(0.5, 0.3, 0.4, there), reference::gltf_brdf(0.5, 0.3, 0.4, back));
+    EXPECT_DOUBLE_EQ(reference::talk_brdf(0.5, 0.3, 40.0, there), reference::talk_brdf(0.5, 0.3, 40.0, back));
+    // The peak of GGX is 1 / (pi alpha^2), and V there 1 / 4; specular is the base of a metal.
+    EXPECT_NEAR(reference::gltf_brdf(0.5, 1.0, 0.5, {1.0, 1.0, 1.0, 1.0}), 0.5 / (4.0 * std::numbers::pi * 0.0625),
+                1e-12);
+}
+
+TEST(ErrorMap, IsRedWhereTooBrightAndHasTheSmallestValueLowerLeft) {
+    ModelEntry entry = furnace_of_direct_light();
+    entry.errors = [] {
+        return std::vector<ModelError>{{{0.0, 0.0, 0.0}, 0.5},
+                                       {{1.0, 0.0, 0.0}, 0.0},
+                                       {{0.0, 1.0, 0.0}, -0.25},
+                                       {{1.0, 1.0, 0.0}, 0.2},
+                                       {{1.0, 1.0, 1.0}, -0.2}};
+    };
+    const ModelAccuracy model = measure(entry);
+    const Picture picture = error_maps({&model, 1});
+    ASSERT_EQ(picture.width, 12);
+    ASSERT_EQ(picture.height, 12);
+    const auto colour = [&](int x, int y) {
+        const std::size_t at = static_cast<std::size_t>(y * picture.width + x) * 4;
+        return std::array<int, 3>{picture.rgba[at], picture.rgba[at + 1], picture.rgba[at + 2]};
+    };
+    EXPECT_EQ(colour(0, 11), (std::array<int, 3>{255, 0, 0}));
+    EXPECT_EQ(colour(11, 11), (std::array<int, 3>{255, 255, 255}));
+    EXPECT_EQ(colour(0, 0), (std::array<int, 3>{128, 128, 255}));
+    EXPECT_EQ(colour(11, 0), (std::array<int, 3>{255, 255, 255})) << "the mean of what lies over one place";
+}
+
+}  // namespace
+}  // namespace halfframe::accuracy

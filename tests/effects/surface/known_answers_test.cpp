@@ -172,7 +172,7 @@ TEST_F(SurfaceKnownAnswers, TheHighlightPeaksAtItsNormalisation) {
         5e-4,  // half at low: 1.1e-4 found, roundings of the power, of 1/8 of it and of the product
         1e-6,  // full: 1.5e-7 found
         5e-4,  // console, as low
-        1e-6,  //
+        1e-6,  // console, full
         5e-4,  // as written: fp32 n.h is 6e-8 to 1.2e-7 from 1, times 2048
     };
     for (std::size_t i = 0; i < std::size(kEverywhere); ++i) {

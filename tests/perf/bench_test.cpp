@@ -1,0 +1,31 @@
+// halfframe_bench runs and prints a slope for every kind of light. What the slopes are is not judged.
+#include <gtest/gtest.h>
+
+#include "tests/perf/child_process.h"
+
+namespace halfframe::test {
+namespace {
+
+TEST(LightBench, PrintsASlopeForEveryKindOfLight) {
+    if (run_child(HALFFRAME_BINARY_DIR "/halfframe", {"info", "--json"}, {}).code == 4) {
+        GTEST_SKIP() << "no graphics context here";
+    }
+    for (const char* tier : {"low", "console"}) {
+        const ChildResult result = run_child(HALFFRAME_BINARY_DIR "/halfframe_bench",
+                                             {"--rounds", "1", "--width", "32", "--height", "16", "--tier", tier}, {});
+        ASSERT_EQ(result.code, 0) << result.err;
+        for (const char* group : {"points: ", "spots: ", "spheres: ", "64 points: ", " ms a light"}) {
+            EXPECT_NE(result.out.find(group), std::string::npos) << group << "\n" << result.out;
+        }
+        EXPECT_EQ(result.out.find("nan"), std::string::npos) << result.out;
+    }
+}
+
+TEST(LightBench, AnUnknownTierIsRefused) {
+    const ChildResult result = run_child(HALFFRAME_BINARY_DIR "/halfframe_bench", {"--tier", "middle"}, {});
+    EXPECT_NE(result.code, 0);
+    EXPECT_NE(result.err.find("--tier"), std::string::npos) << result.err;
+}
+
+}  // namespace
+}  // namespace halfframe::test

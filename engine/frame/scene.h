@@ -88,7 +88,7 @@ struct Light {
     float range_m = 10.0f;                   ///< falls smoothly to 0 here; point, spot
     float inner_cone_rad = 0.0f;             ///< spot: full inside this half angle
     float outer_cone_rad = 0.785398f;        ///< spot: dark outside this half angle
-    float radius_m = 0.0f;                   ///< of the shining sphere; 0: a point. point, spot
+    float radius_m = 0.0f;                   ///< of the shining sphere, less than range_m; 0: a point. point, spot
 };
 
 struct Camera {

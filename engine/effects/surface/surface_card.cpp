@@ -66,7 +66,8 @@ std::vector<int> lights_reaching(const Scene& scene, const Box& box, int limit, 
         const float distance_m = glm::distance(nearest, light.position);
         if (distance_m >= light.range_m) continue;
         candidates.push_back(
-            {static_cast<int>(i), strongest_channel(light.color) / std::max(distance_m * distance_m, 0.01f)});
+            {static_cast<int>(i), strongest_channel(light.color) /
+                                      std::max({distance_m * distance_m, light.radius_m * light.radius_m, 0.01f})});
     }
     std::ranges::stable_sort(candidates, std::greater<>{}, &Candidate::strength);
     left_out = std::max(static_cast<int>(candidates.size()) - limit, 0);

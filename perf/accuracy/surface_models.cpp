@@ -29,12 +29,14 @@ std::vector<ModelError> reflectance_errors(PowerOfRoughness power_of) {
     std::vector<ModelError> errors;
     for (const double view_deg : {0.0, 30.0, 60.0, 80.0}) {
         const double n_v = std::cos(view_deg * kDegree);
+        const SplitSum lambert = reference::split_sum_lambert(n_v);
         for (const double roughness : steps(0.0, 1.0, 21)) {
+            const SplitSum ggx = reference::split_sum_ggx(roughness * roughness, n_v);
             const SplitSum blinn = reference::split_sum_blinn(power_of(roughness), n_v);
             for (const double metallic : steps(0.0, 1.0, 11)) {
                 const double mapped =
                     reference::mapped_albedo(kBase, metallic) + blinn.of(reference::mapped_specular(kBase, metallic));
-                const double truth = reference::gltf_reflectance(kBase, metallic, roughness, n_v);
+                const double truth = reference::gltf_reflectance(kBase, metallic, ggx, lambert);
                 errors.push_back({{metallic, roughness, view_deg}, mapped - truth});
             }
         }

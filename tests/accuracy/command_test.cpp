@@ -1,5 +1,8 @@
 // halfframe accuracy as a child process: streams, exit codes, spelling.
 #include <gtest/gtest.h>
+
+#include <filesystem>
+
 #include <nlohmann/json.hpp>
 
 #include "tests/harness/child_process.h"
@@ -37,6 +40,28 @@ TEST(AccuracyCommand, TheTableHasARowForEachFunction) {
     }
     EXPECT_EQ(result.output.find("sky_gradient"), std::string::npos) << result.output;
     EXPECT_EQ(result.output.find("exceeded"), std::string::npos) << result.output;
+}
+
+TEST(AccuracyCommand, ModelsFollowTheFunctionsAndCanBeDrawn) {
+    const std::string maps = testing::TempDir() + "halfframe_accuracy_maps.png";
+    std::filesystem::remove(maps);
+    const ChildResult result = accuracy({"surface", "--json", "--maps", maps});
+    ASSERT_EQ(result.exit_code, 0) << result.story();
+    std::size_t models = 0;
+    for (const auto& element : nlohmann::json::parse(result.output)) {
+        EXPECT_NE(element.contains("function"), element.contains("model"));
+        if (!element.contains("model")) continue;
+        EXPECT_GE(element.at("highest").get<double>(), element.at("lowest").get<double>());
+        EXPECT_LE(element.at("mean").get<double>(), element.at("mean_bound").get<double>());
+        EXPECT_FALSE(element.at("worst_place").empty());
+        ++models;
+    }
+    EXPECT_EQ(models, 5u);
+    EXPECT_GT(std::filesystem::file_size(maps), 1000u);
+    std::filesystem::remove(maps);
+    const ChildResult none = accuracy({"sky", "--maps", maps});
+    EXPECT_EQ(none.exit_code, 2) << none.story();
+    EXPECT_FALSE(std::filesystem::exists(maps));
 }
 
 TEST(AccuracyCommand, AnUnknownEffectIs2AndNamesTheNearest) {

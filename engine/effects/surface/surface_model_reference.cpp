@@ -10,6 +10,9 @@ namespace halfframe::reference {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
+constexpr int kHeights = 256, kTurns = 64;  // turns of half a circle: the other half is its mirror image
+
+double fifth_power(double x) { return x * x * x * x * x; }
 
 /// Smith's height-correlated masking and shadowing over 4 n.l n.v, as appendix B writes it.
 double visibility(double alpha, double n_l, double n_v) {
@@ -23,7 +26,6 @@ double visibility(double alpha, double n_l, double n_v) {
 /// the density of the light directions, without its Fresnel factor.
 template <typename SquaredCosine, typename Weight>
 SplitSum summed(double n_v, SquaredCosine squared_cosine, Weight weight) {
-    constexpr int kHeights = 256, kTurns = 128;  // turns of half a circle: the other half is its mirror image
     const double sine = std::sqrt(1.0 - n_v * n_v);
     SplitSum sum{0.0, 0.0};
     for (int i = 0; i < kHeights; ++i) {
@@ -34,27 +36,9 @@ SplitSum summed(double n_v, SquaredCosine squared_cosine, Weight weight) {
             const double n_l = 2.0 * l_h * n_h - n_v;
             if (l_h <= 0.0 || n_l <= 0.0) continue;
             const double share = weight(Cosines{n_l, n_v, n_h, l_h}) / (kHeights * kTurns);
-            const double grazing = std::pow(1.0 - l_h, 5.0);
+            const double grazing = fifth_power(1.0 - l_h);
             sum.scale += share * (1.0 - grazing);
             sum.bias += share * grazing;
-        }
-    }
-    return sum;
-}
-
-/// Of an even hemisphere weighted with n.l / pi: the Fresnel share that glTF takes from the diffuse part.
-SplitSum split_sum_lambert(double n_v) {
-    constexpr int kHeights = 256, kTurns = 128;
-    const double sine = std::sqrt(1.0 - n_v * n_v);
-    SplitSum sum{0.0, 0.0};
-    for (int i = 0; i < kHeights; ++i) {
-        const double n_l = std::sqrt((i + 0.5) / kHeights);
-        const double across = std::sqrt(1.0 - n_l * n_l);
-        for (int j = 0; j < kTurns; ++j) {
-            const double l_v = sine * across * std::cos((j + 0.5) / kTurns * kPi) + n_v * n_l;
-            const double grazing = std::pow(1.0 - std::sqrt(std::fmax(0.5 * (1.0 + l_v), 0.0)), 5.0);
-            sum.scale += (1.0 - grazing) / (kHeights * kTurns);
-            sum.bias += grazing / (kHeights * kTurns);
         }
     }
     return sum;
@@ -98,14 +82,25 @@ SplitSum split_sum_blinn(double power, double n_v) {
         [](const Cosines& at) { return at.n_l * at.l_h / at.n_h; });
 }
 
-double gltf_reflectance(double base, double metallic, double roughness, double n_v) {
-    const double specular = gltf_specular(base, metallic);
-    const double diffuse = base * (1.0 - metallic) * (1.0 - split_sum_lambert(n_v).of(specular));
-    return diffuse + split_sum_ggx(roughness * roughness, n_v).of(specular);
+SplitSum split_sum_lambert(double n_v) {
+    const double sine = std::sqrt(1.0 - n_v * n_v);
+    SplitSum sum{0.0, 0.0};
+    for (int i = 0; i < kHeights; ++i) {
+        const double n_l = std::sqrt((i + 0.5) / kHeights);
+        const double across = std::sqrt(1.0 - n_l * n_l);
+        for (int j = 0; j < kTurns; ++j) {
+            const double l_v = sine * across * std::cos((j + 0.5) / kTurns * kPi) + n_v * n_l;
+            const double grazing = fifth_power(1.0 - std::sqrt(std::fmax(0.5 * (1.0 + l_v), 0.0)));
+            sum.scale += (1.0 - grazing) / (kHeights * kTurns);
+            sum.bias += grazing / (kHeights * kTurns);
+        }
+    }
+    return sum;
 }
 
-double talk_reflectance(double albedo, double specular, double power, double n_v) {
-    return albedo + split_sum_blinn(power, n_v).of(specular);
+double gltf_reflectance(double base, double metallic, const SplitSum& ggx, const SplitSum& lambert) {
+    const double specular = gltf_specular(base, metallic);
+    return base * (1.0 - metallic) * (1.0 - lambert.of(specular)) + ggx.of(specular);
 }
 
 }  // namespace halfframe::reference

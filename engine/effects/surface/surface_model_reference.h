@@ -23,7 +23,7 @@ struct Cosines {
 [[nodiscard]] double mapped_specular(double base, double metallic);
 
 /// Share of white light from everywhere that a lobe sends towards a view: specular * scale + bias (B. Karis, "Real
-/// Shading in Unreal Engine 4", SIGGRAPH 2013: split sum). Midpoint sums of 256 x 128 half vectors, drawn as the lobe
+/// Shading in Unreal Engine 4", SIGGRAPH 2013: split sum). Midpoint sums of 256 x 64 half vectors, drawn as the lobe
 /// is dense, so that the narrowest needs no more of them than the widest; 1e-3 where the horizon cuts the lobe.
 struct SplitSum {
     double scale, bias;
@@ -35,8 +35,11 @@ struct SplitSum {
 /// Of talk_brdf()'s lobe: Blinn, with nothing that hides (V = 1).
 [[nodiscard]] SplitSum split_sum_blinn(double power, double n_v);
 
-/// Share of white light from everywhere that the whole material sends back towards a view.
-[[nodiscard]] double gltf_reflectance(double base, double metallic, double roughness, double n_v);
-[[nodiscard]] double talk_reflectance(double albedo, double specular, double power, double n_v);
+/// Of n.l / pi: the share of diffuse light that gltf_brdf() counts as reflected before.
+[[nodiscard]] SplitSum split_sum_lambert(double n_v);
+
+/// Share of white light from everywhere that the whole material sends back; `ggx` and `lambert` are the sums of its
+/// roughness and of the view.
+[[nodiscard]] double gltf_reflectance(double base, double metallic, const SplitSum& ggx, const SplitSum& lambert);
 
 }  // namespace halfframe::reference

@@ -44,7 +44,7 @@ std::vector<std::string_view> SurfaceWork::defines_of(const Renderer& renderer, 
         return renderer.scene().lights[static_cast<std::size_t>(light)].radius_m > 0.0f;
     };
     // At low every light is a point: it has no highlight that a sphere could widen.
-    if (lit && std::ranges::any_of(lights, has_radius) && renderer.tier_of("surface") != Tier::low)
+    if (lit && std::ranges::any_of(lights, has_radius) && renderer.tier_of(card_.name) != Tier::low)
         defines.push_back("AREA_LIGHTS");
     if (!lit) defines.push_back("UNLIT");  // glTF 2.0, 3.7.2.1: points and lines without normals are not lit
     if (mesh.mode == GL_POINTS) defines.push_back("POINTS");
@@ -175,37 +175,58 @@ void SurfaceWork::set_matrices(Renderer& renderer, const View& view, const Varia
     if (variant.normal_from_local >= 0)
         set_matrix(variant.normal_from_local, normal_from_local(surface.world_from_local));
     if (variant.toward_eye < 0) return;
-    // Without fragment highp, vertex_to_eye is scaled so that the farthest corner is 64 long: squares stay under 16384
-    // (the least mediump must reach) and above half's smallest normal down to 1/8000 of that distance. Directions do
-    // not change.
-    float scale = 1.0f;
-    if (!renderer.caps().fragment_highp) {
-        const Box box = world_box(renderer.mesh(surface.mesh).box, eye);
-        const float farthest = glm::length(glm::max(glm::abs(box.low), glm::abs(box.high)));
-        scale = 64.0f / std::max(farthest, 1e-3f);
-    }
+    const float scale = fragment_length_scale(renderer, view, draw);
     const glm::vec3 toward =
         view.orthographic ? glm::vec3(view.view_from_world[0].z, view.view_from_world[1].z, view.view_from_world[2].z)
                           : glm::vec3(0.0f);
     set(gl, variant.toward_eye, glm::vec4(toward, view.orthographic ? 1.0f : scale));
 }
 
+// What fragments multiply lengths by. Directions do not change.
+//
+// Without fragment highp, vertex_to_eye is scaled so that the farthest corner is 64 long: squares stay under 16384 (the
+// least mediump must reach) and above half's smallest normal down to 1/8000 of that distance.
+//
+// With it, lengths are counted in the distance at which the strongest lamp shows 1, so that half holds every lamp in
+// any unit: in millimetres a lamp of 3 is 3e6, past half's range, and its falloff 1e-6, below it. To the next power of
+// two, so that no other rounding moves.
+float SurfaceWork::fragment_length_scale(const Renderer& renderer, const View& view, const Draw& draw) const {
+    if (!renderer.caps().fragment_highp) {
+        const Surface& surface = renderer.scene().surfaces[static_cast<std::size_t>(draw.surface)];
+        const Box box = world_box(renderer.mesh(surface.mesh).box, eye_from_local(view, surface.world_from_local));
+        const float farthest = glm::length(glm::max(glm::abs(box.low), glm::abs(box.high)));
+        return 64.0f / std::max(farthest, 1e-3f);
+    }
+    float strongest = 0.0f;
+    for (const int light : draw.lights) {
+        const glm::vec3& color = renderer.scene().lights[static_cast<std::size_t>(light)].color;
+        strongest = std::max({strongest, color.r, color.g, color.b});
+    }
+    strongest *= view.exposure;
+    if (!(strongest > 1e-12f && strongest < 1e12f)) return 1.0f;  // dark, or past any meaning
+    return std::exp2(-std::round(0.5f * std::log2(strongest)));
+}
+
 void SurfaceWork::set_lights(Renderer& renderer, const View& view, const Variant& variant, const Draw& draw) {
     if (variant.light_position < 0) return;
     std::array<glm::vec4, SURFACE_LIGHT_LIMIT> position{}, color{}, direction{}, size{};
+    // The low tier lights its vertices, which are in highp and not scaled.
+    const bool by_vertex = renderer.tier_of(card_.name) == Tier::low;
+    const float scale = by_vertex ? 1.0f : fragment_length_scale(renderer, view, draw);
     for (std::size_t i = 0; i < draw.lights.size(); ++i) {
         const Light& light = renderer.scene().lights[static_cast<std::size_t>(draw.lights[i])];
         const glm::dvec3 from_eye = glm::dvec3(light.position) - glm::dvec3(view.eye);
-        position[i] = glm::vec4(glm::vec3(from_eye), 1.0f / (light.range_m * light.range_m));
+        const float range = light.range_m * scale;
+        position[i] = glm::vec4(glm::vec3(from_eye) * scale, 1.0f / (range * range));
         float cone_scale = 0.0f;  // 0 says point
         if (light.kind == LightKind::spot) {
             const float cos_outer = std::cos(light.outer_cone_rad);
             cone_scale = 1.0f / std::max(std::cos(light.inner_cone_rad) - cos_outer, 1e-3f);
             direction[i] = glm::vec4(glm::normalize(light.direction), cos_outer);
         }
-        color[i] = glm::vec4(light.color * view.exposure, cone_scale);
-        const float radius_m = std::max(light.radius_m, 0.0f);
-        size[i] = glm::vec4(radius_m, radius_m * radius_m, 0.0f, 0.0f);
+        color[i] = glm::vec4(light.color * (view.exposure * scale * scale), cone_scale);
+        const float radius = std::max(light.radius_m, 0.0f) * scale;
+        size[i] = glm::vec4(radius, radius * radius, 0.0f, 0.0f);
     }
     const auto count = static_cast<GLsizei>(draw.lights.size());
     gl::EntryPoints& gl = renderer.gl();

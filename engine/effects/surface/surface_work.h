@@ -51,6 +51,7 @@ private:
     void set_material(Renderer& renderer, const View& view, const Variant& variant, const Draw& draw);
     void set_matrices(Renderer& renderer, const View& view, const Variant& variant, const Draw& draw,
                       const glm::mat4& clip);
+    [[nodiscard]] float fragment_length_scale(const Renderer& renderer, const View& view, const Draw& draw) const;
     void set_lights(Renderer& renderer, const View& view, const Variant& variant, const Draw& draw);
     void draw_one(Renderer& renderer, const View& view, const Draw& draw);
 

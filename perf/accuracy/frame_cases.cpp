@@ -1,0 +1,236 @@
+// The pairs of frames. Bounds are twice what was measured on llvmpipe (Mesa 22.3), at least one code.
+#include "perf/accuracy/frame_cases.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "content/content.h"
+
+namespace halfframe::accuracy {
+namespace {
+
+/// A direction of length 1 along which no coordinate stays small.
+const glm::dvec3 kAway{0.48, 0.60, 0.64};
+
+struct Units {
+    const char* name;
+    double per_metre;
+};
+constexpr Units kMetres{"m", 1.0};
+constexpr Units kCentimetres{"cm", 100.0};
+constexpr Units kMillimetres{"mm", 1000.0};
+
+Shot room() {
+    Shot shot;
+    shot.scene = content::open_scene("test_room");
+    shot.camera = shot.scene.cameras.at(0);
+    return shot;
+}
+
+/// The room seen from `eye` towards `target`.
+Shot room_from(const glm::vec3& eye, const glm::vec3& target, float near_m) {
+    Shot shot = room();
+    shot.camera = camera_looking(eye, target, 1.0f, world_box(shot.scene));
+    shot.camera.near_m = near_m;
+    return shot;
+}
+
+/// The eye a millimetre above the floor.
+Shot along_the_floor() { return room_from({-2.7f, 0.001f, 1.6f}, {0.9f, 0.001f, -0.6f}, 0.02f); }
+/// The eye a millimetre before the back wall.
+Shot along_the_wall() { return room_from({-2.7f, 1.4f, -1.999f}, {2.0f, 1.2f, -1.999f}, 0.02f); }
+/// The eye where the warm lamp is, inside its sphere.
+Shot inside_a_lamp() {
+    Shot shot = room_from({-2.2f, 2.1f, 0.9f}, {0.9f, 1.0f, -0.6f}, 0.02f);
+    for (Light& light : shot.scene.lights) {
+        if (light.position == glm::vec3(-2.2f, 2.1f, 0.9f)) light.radius_m = 0.5f;
+    }
+    return shot;
+}
+
+/// A lamp 5 cm from a wall, and one 5 cm from the metal ball.
+Shot lamps_near_things() {
+    Shot shot = room();
+    for (Light& light : shot.scene.lights) {
+        if (light.name == "violet neon") light.position.z = -1.95f;
+        if (light.name == "warm lamp") light.position = {-0.3f, 0.4f, -0.15f};
+    }
+    return shot;
+}
+
+/// The room from its front side, with parallel rays, or from a kilometre away with a lens as narrow as that needs.
+Shot room_from_the_front(bool orthographic) {
+    constexpr float kHalfHeight = 1.7f;
+    const float distance = orthographic ? 5.0f : 1000.0f;
+    Shot shot = room_from({0.4f, 1.5f, distance}, {0.4f, 1.5f, 0.0f}, 1.0f);
+    shot.camera.orthographic = orthographic;
+    shot.camera.half_height_m = kHalfHeight;
+    shot.camera.fov_y_rad = 2.0f * std::atan(kHalfHeight / distance);
+    shot.camera.near_m = distance - 4.0f;
+    shot.camera.far_m = distance + 4.0f;
+    return shot;
+}
+
+/// `distance_km` away, in whole units, so that going there and coming back is exact.
+glm::dvec3 offset(const Units& units, double distance_km) {
+    return glm::round(kAway * (distance_km * 1000.0 * units.per_metre));
+}
+
+std::function<Shot()> in(const Units& units, Shot (*shot)()) {
+    return [=] { return in_units(shot(), units.per_metre); };
+}
+
+std::vector<FrameCase> moved_cases() {
+    std::vector<FrameCase> list;
+    for (const Units& units : {kMetres, kCentimetres, kMillimetres}) {
+        for (const double distance_km : {1.0, 10.0}) {
+            const glm::dvec3 far = offset(units, distance_km);
+            FrameCase from_origin;
+            from_origin.kind = "moved";
+            from_origin.change = fmt::format("{:.0f} km away, in {}, against the origin", distance_km, units.name);
+            from_origin.plain = room;
+            from_origin.changed = [=] { return moved(in_units(room(), units.per_metre), far); };
+            list.push_back(from_origin);
+            FrameCase from_places = from_origin;
+            from_places.kind = "far_places";
+            from_places.change = fmt::format("{:.0f} km away, in {}, against its own places", distance_km, units.name);
+            from_places.plain = [=] { return with_places_of(in_units(room(), units.per_metre), far); };
+            list.push_back(from_places);
+        }
+    }
+    return list;
+}
+
+std::vector<FrameCase> unit_cases() {
+    std::vector<FrameCase> list;
+    for (const Units& units : {kCentimetres, kMillimetres}) {
+        FrameCase made;
+        made.kind = "units";
+        made.change = fmt::format("lengths in {}", units.name);
+        made.plain = room;
+        made.changed = in(units, room);
+        list.push_back(made);
+    }
+    return list;
+}
+
+std::vector<FrameCase> light_cases() {
+    FrameCase exposed;
+    exposed.kind = "lights";
+    exposed.change = "all light times 10^4, exposure 10^-4";
+    exposed.plain = room;
+    exposed.changed = [] { return exposed_for(room(), 1e4f); };
+    FrameCase bright;
+    bright.kind = "lights";
+    bright.change = "lights times 10^4";
+    bright.plain = room;
+    bright.changed = [] { return with_lights_times(room(), 1e4f); };
+    bright.relation = Relation::never_darker;
+    FrameCase reversed;
+    reversed.kind = "lights";
+    reversed.change = "lights in the opposite order";
+    reversed.plain = room;
+    reversed.changed = [] { return with_lights_reversed(room()); };
+    FrameCase halved;
+    halved.kind = "lights";
+    halved.change = "every lamp as two halves";
+    halved.plain = room;
+    halved.changed = [] { return with_lamps_halved(room()); };
+    FrameCase near_things = bright;
+    near_things.change = "lamps 5 cm from things, lights times 10^4";
+    near_things.plain = lamps_near_things;
+    near_things.changed = [] { return with_lights_times(lamps_near_things(), 1e4f); };
+    return {exposed, bright, near_things, reversed, halved};
+}
+
+std::vector<FrameCase> eye_cases() {
+    std::vector<FrameCase> list;
+    const glm::dvec3 far = offset(kMetres, 10.0);
+    struct Eye {
+        const char* place;
+        Shot (*shot)();
+    };
+    for (const Eye& eye : {Eye{"eye 1 mm above the floor", along_the_floor},
+                           Eye{"eye 1 mm before a wall", along_the_wall}, Eye{"eye inside a lamp", inside_a_lamp}}) {
+        FrameCase away;
+        away.kind = "eye";
+        away.change = fmt::format("{}, 10 km away", eye.place);
+        away.plain = [=] { return with_places_of(eye.shot(), far); };
+        away.changed = [=] { return moved(eye.shot(), far); };
+        list.push_back(away);
+        FrameCase small = away;
+        small.change = fmt::format("{}, in mm", eye.place);
+        small.plain = eye.shot;
+        small.changed = in(kMillimetres, eye.shot);
+        list.push_back(small);
+        FrameCase bright = small;
+        bright.change = fmt::format("{}, lights times 10^4", eye.place);
+        bright.changed = [=] { return with_lights_times(eye.shot(), 1e4f); };
+        bright.relation = Relation::never_darker;
+        list.push_back(bright);
+    }
+    FrameCase parallel;
+    parallel.kind = "eye";
+    parallel.change = "parallel rays, against a lens 1 km away";
+    parallel.plain = [] { return room_from_the_front(false); };
+    parallel.changed = [] { return room_from_the_front(true); };
+    list.push_back(parallel);
+    return list;
+}
+
+std::vector<FrameCase> shape_cases() {
+    std::vector<FrameCase> list;
+    for (const int quarters : {1, 2, 3}) {
+        FrameCase made;
+        made.kind = "turned";
+        made.change = fmt::format("turned by {} degrees", 90 * quarters);
+        made.plain = room;
+        made.changed = [=] { return turned(room(), quarters); };
+        list.push_back(made);
+    }
+    FrameCase empty;
+    empty.kind = "triangles";
+    empty.change = "triangles without area";
+    empty.plain = room;
+    empty.changed = [] { return with_empty_triangles(room()); };
+    list.push_back(empty);
+    return list;
+}
+
+std::vector<FrameCase> size_cases() {
+    const auto sized = [](int width, int height, float fov_y_rad) {
+        return [=] {
+            Shot shot = with_field_of_view(room(), fov_y_rad);
+            shot.width = width;
+            shot.height = height;
+            return shot;
+        };
+    };
+    FrameCase one;
+    one.kind = "size";
+    one.change = "1x1, against the middle of 65x65";
+    one.plain = sized(65, 65, 1.0f);
+    one.plain_part = Part{.x = 32, .y = 32};
+    one.changed = sized(1, 1, 2.0f * std::atan(std::tan(0.5f) / 65.0f));  // as wide as that one pixel
+    FrameCase wide;
+    wide.kind = "size";
+    wide.change = "4096x64, its middle against 64x64";
+    wide.plain = sized(64, 64, 0.03f);
+    wide.changed = sized(4096, 64, 0.03f);
+    wide.changed_part = Part{.x = 2016, .y = 0, .width = 64, .height = 64};
+    return {one, wide};
+}
+
+}  // namespace
+
+std::vector<FrameCase> frame_cases() {
+    std::vector<FrameCase> list;
+    for (const std::vector<FrameCase>& part :
+         {moved_cases(), unit_cases(), light_cases(), eye_cases(), shape_cases(), size_cases()}) {
+        list.insert(list.end(), part.begin(), part.end());
+    }
+    return list;
+}
+
+}  // namespace halfframe::accuracy

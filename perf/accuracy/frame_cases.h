@@ -1,0 +1,47 @@
+// Pairs of whole frames that must look alike: what stability of a picture means, as data.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/frame/tier.h"
+#include "perf/accuracy/scene_changes.h"
+
+namespace halfframe::accuracy {
+
+enum class Relation : std::uint8_t {
+    same,          ///< the changed picture is the plain one
+    never_darker,  ///< no channel of the changed picture is below the plain one: more light was added
+};
+
+/// A part of a picture, from the left and the top [pixels].
+struct Part {
+    int x = 0, y = 0, width = 1, height = 1;
+};
+
+/// The largest distance allowed, and what causes one of that size.
+struct FrameBound {
+    int max_channel_error = 0;      ///< [1/255]
+    double max_bad_fraction = 0.0;  ///< pixels that differ at all, 0..1
+    const char* reason = "the same numbers";
+};
+
+struct FrameCase {
+    std::string kind;    ///< a word for the family: "moved", "units"; a label for tests
+    std::string change;  ///< what was changed, for a reader
+    std::function<Shot()> plain;
+    std::function<Shot()> changed;
+    Relation relation = Relation::same;
+    std::optional<Part> plain_part = std::nullopt;  ///< compared; nothing: the whole picture
+    std::optional<Part> changed_part = std::nullopt;
+    FrameBound full;
+    FrameBound half;
+};
+
+/// All pairs, of the built-in test room. The order is that of the table.
+[[nodiscard]] std::vector<FrameCase> frame_cases();
+
+}  // namespace halfframe::accuracy

@@ -59,10 +59,10 @@ Shot lamps_near_things() {
     return shot;
 }
 
-/// The room from its front side, with parallel rays, or from a kilometre away with a lens as narrow as that needs.
+/// The room from its front side, with parallel rays, or from ten kilometres away with a lens as narrow as that needs.
 Shot room_from_the_front(bool orthographic) {
     constexpr float kHalfHeight = 1.7f;
-    const float distance = orthographic ? 5.0f : 1000.0f;
+    const float distance = orthographic ? 5.0f : 10000.0f;
     Shot shot = room_from({0.4f, 1.5f, distance}, {0.4f, 1.5f, 0.0f}, 1.0f);
     shot.camera.orthographic = orthographic;
     shot.camera.half_height_m = kHalfHeight;
@@ -172,7 +172,7 @@ std::vector<FrameCase> eye_cases() {
     }
     FrameCase parallel;
     parallel.kind = "eye";
-    parallel.change = "parallel rays, against a lens 1 km away";
+    parallel.change = "parallel rays, against a lens 10 km away";
     parallel.plain = [] { return room_from_the_front(false); };
     parallel.changed = [] { return room_from_the_front(true); };
     list.push_back(parallel);

@@ -34,6 +34,7 @@ uniform HALF sampler2D emissive_map;
 #ifndef UNLIT
 uniform HALF vec4 factors;  // x metallic, y roughness, z normal scale
 uniform HALF vec4 ambient;  // rgb
+uniform HALF vec4 parallel_eye;  // orthographic: xyz direction to the eye, w 0; else 0, 0, 0, 1
 #ifdef METALLIC_ROUGHNESS_MAP
 uniform HALF sampler2D metallic_roughness_map;
 #endif
@@ -113,7 +114,7 @@ void main() {
 #ifdef DOUBLE_SIDED
     n = gl_FrontFacing ? n : -n;
 #endif
-    FULL vec3 v = normalize(vertex_to_eye);
+    FULL vec3 v = normalize(vertex_to_eye * parallel_eye.w + parallel_eye.xyz);
 
     //@insert surface.material
 

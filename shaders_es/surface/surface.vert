@@ -13,7 +13,7 @@ VERTEX_IN vec4 color;     // linear
 uniform highp mat4 clip_from_local;
 uniform highp mat4 eye_from_local;     // world axes, origin at the eye
 uniform highp mat4 normal_from_local;  // inverse transpose, world axes
-uniform highp vec4 toward_eye;         // xyz: direction to the eye if orthographic; w: scale of to_eye, see surface.cpp
+uniform highp vec4 toward_eye;         // xyz: direction to the eye if orthographic; w: scale of lengths, see surface_work.cpp
 
 VERTEX_OUT FULL vec3 vertex_to_eye;  // FULL: positions in metres need more than 11 bits
 VERTEX_OUT FULL vec2 vertex_uv;      // FULL: a 2048-texel repeat is past half's 11 bits
@@ -63,16 +63,17 @@ void main() {
     gl_PointSize = 4.0;
 #endif
     vec3 at = (eye_from_local * vec4(position, 1.0)).xyz;
-    vertex_to_eye = (dot(toward_eye.xyz, toward_eye.xyz) > 0.5 ? toward_eye.xyz : -at) * toward_eye.w;
+    vertex_to_eye = -at * toward_eye.w;
     vertex_uv = uv;
 #ifndef UNLIT
     vec3 n = normalize((normal_from_local * vec4(normal.xyz, 0.0)).xyz);
     vertex_normal = n;
 #if defined(DOUBLE_SIDED) && defined(TIER_LOW)
-    n = dot(n, vertex_to_eye) < 0.0 ? -n : n;  // a vertex has no front: it is lit on the side that is seen
+    vec3 to_eye = dot(toward_eye.xyz, toward_eye.xyz) > 0.5 ? toward_eye.xyz : -at;
+    n = dot(n, to_eye) < 0.0 ? -n : n;  // a vertex has no front: it is lit on the side that is seen
 #endif
 #if defined(LOCAL_LIGHTS) && defined(TIER_LOW)
-    vertex_light = local_light(at, n);
+    vertex_light = min(local_light(at, n), vec3(60000.0));  // past half's range a metal's albedo of 0 would make it NaN
 #endif
     //@insert surface.vertex
 #endif

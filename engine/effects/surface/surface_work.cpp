@@ -18,6 +18,13 @@ void set(gl::EntryPoints& gl, int location, const glm::vec4& value) {
     if (location >= 0) gl.Uniform4fv(location, 1, &value.x);
 }
 
+constexpr glm::vec4 kNotParallel{0.0f, 0.0f, 0.0f, 1.0f};
+
+/// Of an orthographic view: the same for every place.
+glm::vec3 direction_to_eye(const View& view) {
+    return {view.view_from_world[0].z, view.view_from_world[1].z, view.view_from_world[2].z};
+}
+
 const Material& material_of(const Renderer& renderer, const Surface& surface) {
     return renderer.scene().materials[static_cast<std::size_t>(surface.material)];
 }
@@ -67,6 +74,7 @@ int SurfaceWork::variant_of(Renderer& renderer, const std::vector<std::string_vi
     variant.emissive = program.uniform_if_used("emissive");
     variant.factors = program.uniform_if_used("factors");
     variant.ambient = program.uniform_if_used("ambient");
+    variant.parallel_eye = program.uniform_if_used("parallel_eye");
     variant.sun_direction = program.uniform_if_used("sun_direction");
     variant.sun_color = program.uniform_if_used("sun_color");
     variant.light_position = program.uniform_if_used("light_position");
@@ -144,6 +152,7 @@ void SurfaceWork::set_variant(Renderer& renderer, const View& view, const Varian
     gl::EntryPoints& gl = renderer.gl();
     renderer.use(*variant.program);
     set(gl, variant.ambient, glm::vec4(renderer.scene().ambient * view.exposure, 0.0f));
+    set(gl, variant.parallel_eye, view.orthographic ? glm::vec4(direction_to_eye(view), 0.0f) : kNotParallel);
     if (sun_) {
         set(gl, variant.sun_direction, glm::vec4(-glm::normalize(sun_->direction), 0.0f));
         set(gl, variant.sun_color, glm::vec4(sun_->color * view.exposure, 0.0f));
@@ -176,10 +185,8 @@ void SurfaceWork::set_matrices(Renderer& renderer, const View& view, const Varia
         set_matrix(variant.normal_from_local, normal_from_local(surface.world_from_local));
     if (variant.toward_eye < 0) return;
     const float scale = fragment_length_scale(renderer, view, draw);
-    const glm::vec3 toward =
-        view.orthographic ? glm::vec3(view.view_from_world[0].z, view.view_from_world[1].z, view.view_from_world[2].z)
-                          : glm::vec3(0.0f);
-    set(gl, variant.toward_eye, glm::vec4(toward, view.orthographic ? 1.0f : scale));
+    const glm::vec3 toward = view.orthographic ? direction_to_eye(view) : glm::vec3(0.0f);
+    set(gl, variant.toward_eye, glm::vec4(toward, scale));
 }
 
 // What fragments multiply lengths by. Directions do not change.

@@ -25,7 +25,7 @@ private:
     struct Variant {
         gl::Program* program = nullptr;
         int clip_from_local = -1, eye_from_local = -1, normal_from_local = -1, toward_eye = -1;
-        int base_color = -1, emissive = -1, factors = -1, ambient = -1;
+        int base_color = -1, emissive = -1, factors = -1, ambient = -1, parallel_eye = -1;
         int sun_direction = -1, sun_color = -1;
         int light_position = -1, light_color = -1, light_direction = -1, light_size = -1, light_count = -1;
     };

@@ -73,12 +73,13 @@ void judge(FrameAccuracy& found) {
 
 }  // namespace
 
-FrameBench::FrameBench(gl::EntryPoints& gl, const gl::Caps& caps) : gl_(gl), caps_(caps), renderer_(gl, caps) {}
+FrameBench::FrameBench(gl::EntryPoints& gl, const gl::Caps& caps, std::span<const EffectCard* const> cards)
+    : caps_(caps), cards_(cards), renderer_(gl, caps, {.program_cache_folder = {}, .effects = cards}) {}
 
 Picture FrameBench::draw(const Shot& shot, const Wishes& wishes) {
     View view = view_of(shot.camera, shot.width, shot.height);
     view.exposure = shot.camera.exposure;
-    renderer_.prepare(shot.scene, plan_frame(shot.scene, view, wishes, caps_, all_effects()));
+    renderer_.prepare(shot.scene, plan_frame(shot.scene, view, wishes, caps_, cards_));
     renderer_.draw(view);
     Picture picture = renderer_.read_display();
     if (const std::string error = renderer_.first_gl_error(); !error.empty()) {
@@ -94,7 +95,7 @@ FrameAccuracy FrameBench::measure(const FrameCase& pair, Tier tier, Arithmetic a
                         .tier = tier,
                         .arithmetic = arithmetic,
                         .relation = pair.relation,
-                        .bound = arithmetic == Arithmetic::full ? pair.full : pair.half};
+                        .bound = bound_of(pair, tier, arithmetic)};
     Wishes wishes{.tier = tier, .arithmetic = arithmetic};
     const Shot plain = pair.plain();
     Shot changed = pair.changed();

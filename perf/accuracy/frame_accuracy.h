@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -34,7 +35,7 @@ struct FrameAccuracy {
 class FrameBench {
 public:
     /// `gl` and `caps` outlive the bench.
-    FrameBench(gl::EntryPoints& gl, const gl::Caps& caps);
+    FrameBench(gl::EntryPoints& gl, const gl::Caps& caps, std::span<const EffectCard* const> cards = all_effects());
 
     /// Draws both frames of the pair, the changed one also without its surfaces and as a census, and judges.
     /// Error(usage) where the device cannot have the tier or the arithmetic.
@@ -43,8 +44,8 @@ public:
 private:
     Picture draw(const Shot& shot, const Wishes& wishes);
 
-    gl::EntryPoints& gl_;
     const gl::Caps& caps_;
+    std::span<const EffectCard* const> cards_;
     Renderer renderer_;
 };
 

@@ -1,4 +1,5 @@
-// The pairs of frames. Bounds are twice what was measured on llvmpipe (Mesa 22.3), at least one code.
+// The pairs of frames. A bound that is not 0 is twice what was measured on llvmpipe (Mesa 22.3, 160x90 pixels), which
+// its reason gives as max_channel_error / bad_fraction.
 #include "perf/accuracy/frame_cases.h"
 
 #include <cmath>
@@ -81,6 +82,31 @@ std::function<Shot()> in(const Units& units, Shot (*shot)()) {
     return [=] { return in_units(shot(), units.per_metre); };
 }
 
+/// A few codes where a result falls between two: what other roundings of the same picture cost.
+constexpr FrameBound kRoundedInFloat{
+    4, 4e-4, "roundings of 6e-8 turn a code where light falls between two, and one pixel of a texture: 2 / 0.0002"};
+constexpr FrameBound kRoundedInHalf{
+    4, 0.04, "half steps of 2^-11 turn a code in every fiftieth pixel when the numbers of a lamp change: 2 / 0.018"};
+
+constexpr const char* kLengthOfNormal =
+    "half leaves a normal 2^-11 too long or short, by the order of the axes, and this tier's lobe as written raises "
+    "that to "
+    "a power of 500: 29 / 0.0004, one pixel of a highlight";
+
+/// Against the origin: what floats can say of a place that far away is in these.
+void bound_moved(FrameCase& pair, const Units& units, double distance_km) {
+    pair.full = kRoundedInFloat;
+    pair.half = kRoundedInHalf;
+    if (units.per_metre != 1.0) return;  // the room's places are whole centimetres, which need no rounding there
+    if (distance_km < 5.0) {
+        pair.full = {148, 0.018, "places keep steps of 0.06 mm there; silhouettes move by less: 74 / 0.009"};
+        pair.half = {148, 0.022, "as in full, and half turns a code in few pixels more: 74 / 0.011"};
+    } else {
+        pair.full = {150, 0.059, "places keep steps of 0.5 mm there; silhouettes move by less: 75 / 0.029"};
+        pair.half = {150, 0.070, "as in full, and half turns a code in few pixels more: 75 / 0.035"};
+    }
+}
+
 std::vector<FrameCase> moved_cases() {
     std::vector<FrameCase> list;
     for (const Units& units : {kMetres, kCentimetres, kMillimetres}) {
@@ -91,8 +117,9 @@ std::vector<FrameCase> moved_cases() {
             from_origin.change = fmt::format("{:.0f} km away, in {}, against the origin", distance_km, units.name);
             from_origin.plain = room;
             from_origin.changed = [=] { return moved(in_units(room(), units.per_metre), far); };
-            list.push_back(from_origin);
             FrameCase from_places = from_origin;
+            bound_moved(from_origin, units, distance_km);
+            list.push_back(from_origin);
             from_places.kind = "far_places";
             from_places.change = fmt::format("{:.0f} km away, in {}, against its own places", distance_km, units.name);
             from_places.plain = [=] { return with_places_of(in_units(room(), units.per_metre), far); };
@@ -110,6 +137,8 @@ std::vector<FrameCase> unit_cases() {
         made.change = fmt::format("lengths in {}", units.name);
         made.plain = room;
         made.changed = in(units, room);
+        made.full = kRoundedInFloat;
+        made.half = kRoundedInHalf;
         list.push_back(made);
     }
     return list;
@@ -137,6 +166,8 @@ std::vector<FrameCase> light_cases() {
     halved.change = "every lamp as two halves";
     halved.plain = room;
     halved.changed = [] { return with_lamps_halved(room()); };
+    halved.full = kRoundedInFloat;
+    halved.half = {2, 0.12, "a lamp's light is rounded before it is doubled, not after: 1 / 0.057"};
     FrameCase near_things = bright;
     near_things.change = "lamps 5 cm from things, lights times 10^4";
     near_things.plain = lamps_near_things;
@@ -163,8 +194,10 @@ std::vector<FrameCase> eye_cases() {
         small.change = fmt::format("{}, in mm", eye.place);
         small.plain = eye.shot;
         small.changed = in(kMillimetres, eye.shot);
-        list.push_back(small);
         FrameCase bright = small;
+        small.full = kRoundedInFloat;
+        small.half = kRoundedInHalf;
+        list.push_back(small);
         bright.change = fmt::format("{}, lights times 10^4", eye.place);
         bright.changed = [=] { return with_lights_times(eye.shot(), 1e4f); };
         bright.relation = Relation::never_darker;
@@ -175,6 +208,10 @@ std::vector<FrameCase> eye_cases() {
     parallel.change = "parallel rays, against a lens 10 km away";
     parallel.plain = [] { return room_from_the_front(false); };
     parallel.changed = [] { return room_from_the_front(true); };
+    parallel.full = {2, 0.4,
+                     "rays differ by up to 2e-4; of a sky that lies between two codes a fifth turns: 1 / 0.196"};
+    parallel.half = {4, 0.1, "as in full: 2 / 0.047"};
+    parallel.reference_half = {34, 0.1, "as for turned: 17 / 0.049"};
     list.push_back(parallel);
     return list;
 }
@@ -187,6 +224,9 @@ std::vector<FrameCase> shape_cases() {
         made.change = fmt::format("turned by {} degrees", 90 * quarters);
         made.plain = room;
         made.changed = [=] { return turned(room(), quarters); };
+        made.full = {2, 8e-4, "sums over x, y and z are taken in another order: 1 / 0.0004"};
+        made.half = {2, 8e-4, "as in full: 1 / 0.0004"};
+        made.reference_half = {58, 8e-4, kLengthOfNormal};
         list.push_back(made);
     }
     FrameCase empty;
@@ -223,6 +263,11 @@ std::vector<FrameCase> size_cases() {
 }
 
 }  // namespace
+
+const FrameBound& bound_of(const FrameCase& pair, Tier tier, Arithmetic arithmetic) {
+    if (arithmetic == Arithmetic::full) return pair.full;
+    return tier == Tier::reference && pair.reference_half ? *pair.reference_half : pair.half;
+}
 
 std::vector<FrameCase> frame_cases() {
     std::vector<FrameCase> list;

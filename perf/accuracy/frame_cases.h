@@ -37,11 +37,14 @@ struct FrameCase {
     Relation relation = Relation::same;
     std::optional<Part> plain_part = std::nullopt;  ///< compared; nothing: the whole picture
     std::optional<Part> changed_part = std::nullopt;
-    FrameBound full;
-    FrameBound half;
+    FrameBound full = {};
+    FrameBound half = {};
+    std::optional<FrameBound> reference_half = std::nullopt;  ///< the reference tier in half; nothing: as `half`
 };
 
-/// All pairs, of the built-in test room. The order is that of the table.
+[[nodiscard]] const FrameBound& bound_of(const FrameCase& pair, Tier tier, Arithmetic arithmetic);
+
+/// All pairs, of the built-in test room. The order is that of the table; pairs of a kind stand together.
 [[nodiscard]] std::vector<FrameCase> frame_cases();
 
 }  // namespace halfframe::accuracy

@@ -17,6 +17,8 @@ std::string figure(double value) { return value == 0.0 ? "0" : fmt::format("{:.2
 std::size_t not_finite(const FunctionAccuracy& function) {
     std::size_t count = function.method.not_finite;
     for (const Gap& gap : function.arithmetic) count += gap.not_finite;
+    if (function.here) count += function.here->highp.not_finite;
+    if (function.here && function.here->mediump) count += function.here->mediump->not_finite;
     return count;
 }
 
@@ -43,33 +45,7 @@ Json gap_json(const FunctionAccuracy& function, const Gap& gap, const Bound& bou
             {"not_finite", gap.not_finite}, {"worst_input", input}};
 }
 
-std::string signed_figure(double value) { return value == 0.0 ? "0" : fmt::format("{:+.3g}", value); }
-
-Json model_json(const ModelAccuracy& model) {
-    const ModelEntry& entry = model.entry;
-    Json place = Json::object();
-    for (std::size_t axis = 0; axis < entry.axes.size(); ++axis) {
-        place[entry.axes[axis]] = model.errors[model.worst].at[axis];
-    }
-    return {{"effect", entry.effect},
-            {"model", entry.model},
-            {"truth", entry.truth},
-            {"unit", entry.unit},
-            {"places", model.errors.size()},
-            {"lowest", model.lowest},
-            {"highest", model.highest},
-            {"mean", model.mean},
-            {"worst_place", place},
-            {"largest_bound", entry.largest.at_most},
-            {"largest_bound_reason", entry.largest.reason},
-            {"mean_bound", entry.mean.at_most},
-            {"mean_bound_reason", entry.mean.reason},
-            {"violations", model.violations}};
-}
-
-}  // namespace
-
-std::string accuracy_text(std::span<const FunctionAccuracy> functions) {
+std::string functions_text(const std::vector<FunctionAccuracy>& functions) {
     perf::TextTable table({{"effect", Align::left},
                            {"function", Align::left},
                            {"tier", Align::left},
@@ -82,18 +58,21 @@ std::string accuracy_text(std::span<const FunctionAccuracy> functions) {
                            {"p99", Align::right},
                            {"flushed", Align::right},
                            {"ES min", Align::right},
+                           {"highp here", Align::right},
+                           {"mediump here", Align::right},
                            {"not finite", Align::right},
                            {"bounds", Align::left}});
     std::string inputs;
-    std::string exceeded;
     for (const FunctionAccuracy& function : functions) {
         const FunctionEntry& entry = function.entry;
         const auto& [in_float, half, flushed, minimum] = function.arithmetic;
+        const bool mediump_here = function.here && function.here->mediump;
         table.add_row({entry.effect, entry.function, name(entry.tier), halfframe::name(entry.arithmetic),
                        name(entry.unit), figure(function.method.largest), figure(function.method.p99),
                        figure(in_float.largest), figure(half.largest), figure(half.p99), figure(flushed.largest),
-                       figure(minimum.largest), std::to_string(not_finite(function)),
-                       function.violations.empty() ? "hold" : "exceeded"});
+                       figure(minimum.largest), function.here ? figure(function.here->highp.largest) : "-",
+                       mediump_here ? figure(function.here->mediump->largest) : "-",
+                       std::to_string(not_finite(function)), function.violations.empty() ? "hold" : "exceeded"});
         inputs += fmt::format("{}.{} ({})\n", entry.effect, entry.function, name(entry.tier));
         inputs += fmt::format("  {} inputs: {}\n", function.lanes, entry.domain);
         inputs += fmt::format("  method  {}\n", input_text(function, function.method.worst_lane));
@@ -101,48 +80,21 @@ std::string accuracy_text(std::span<const FunctionAccuracy> functions) {
         if (flushed.worst_lane != half.worst_lane) {
             inputs += fmt::format("  flushed {}\n", input_text(function, flushed.worst_lane));
         }
-        for (const std::string& violation : function.violations) exceeded += "exceeded: " + violation + "\n";
+        if (mediump_here && function.here->mediump->worst_lane != half.worst_lane) {
+            inputs += fmt::format("  here    {}\n", input_text(function, function.here->mediump->worst_lane));
+        }
     }
     return "method: the shader in double against its reference. float, half, flushed (half without subnormals), ES "
            "min\n"
-           "(the least GLSL ES allows): the shader in that arithmetic against itself in double. Largest error, p99 "
-           "beside\n"
-           "two of them. Nothing is stored, so no target format is in these figures. codes: of 255, behind the tone "
-           "curve.\n\n" +
-           table.text() + "\nInputs, and the worst of them\n" + inputs + (exceeded.empty() ? "" : "\n" + exceeded);
+           "(the least GLSL ES allows): the shader in that arithmetic against itself in double; here: drawn on the "
+           "context\n"
+           "above over the same inputs. Largest error, p99 beside two of them. Nothing is stored, so no target format "
+           "is in\n"
+           "these figures. codes: of 255, behind the tone curve.\n\n" +
+           table.text() + "\nInputs, and the worst of them\n" + inputs;
 }
 
-std::string models_text(std::span<const ModelAccuracy> models) {
-    if (models.empty()) return "";
-    perf::TextTable table({{"effect", Align::left},
-                           {"model", Align::left},
-                           {"error", Align::left},
-                           {"lowest", Align::right},
-                           {"highest", Align::right},
-                           {"mean", Align::right},
-                           {"places", Align::right},
-                           {"bounds", Align::left}});
-    std::string places;
-    std::string exceeded;
-    for (const ModelAccuracy& model : models) {
-        const ModelEntry& entry = model.entry;
-        table.add_row({entry.effect, entry.model, entry.unit, signed_figure(model.lowest), signed_figure(model.highest),
-                       figure(model.mean), std::to_string(model.errors.size()),
-                       model.violations.empty() ? "hold" : "exceeded"});
-        places += fmt::format("{}, {}\n  truth  {}\n  worst ", entry.effect, entry.model, entry.truth);
-        for (std::size_t axis = 0; axis < entry.axes.size(); ++axis) {
-            places += fmt::format(" {} {:g}", entry.axes[axis], model.errors[model.worst].at[axis]);
-        }
-        places += "\n";
-        for (const std::string& violation : model.violations) exceeded += "exceeded: " + violation + "\n";
-    }
-    return "\nModels against what they stand for, both in double: what is lost (lowest), what is gained (highest), and "
-           "the\nmean size of the error.\n\n" +
-           table.text() + "\n" + places + (exceeded.empty() ? "" : "\n" + exceeded);
-}
-
-nlohmann::ordered_json accuracy_json(std::span<const FunctionAccuracy> functions,
-                                     std::span<const ModelAccuracy> models) {
+Json functions_json(const std::vector<FunctionAccuracy>& functions) {
     Json all = Json::array();
     for (const FunctionAccuracy& function : functions) {
         const FunctionEntry& entry = function.entry;
@@ -151,20 +103,65 @@ nlohmann::ordered_json accuracy_json(std::span<const FunctionAccuracy> functions
             const shader_ir::Model model = kArithmetics[i];
             arithmetics[shader_ir::name(model)] = gap_json(function, function.arithmetic[i], bound_of(entry, model));
         }
+        Json here;  // null: no context
+        if (function.here) {
+            here["highp"] = gap_json(function, function.here->highp, function.here->highp_bound);
+            if (function.here->mediump)
+                here["mediump"] = gap_json(function, *function.here->mediump, function.here->mediump_bound);
+        }
         all.push_back({{"effect", entry.effect},
                        {"function", entry.function},
                        {"files", entry.files},
                        {"tier", name(entry.tier)},
                        {"arithmetic", halfframe::name(entry.arithmetic)},
-                       {"storage", nullptr},
                        {"unit", name(entry.unit)},
                        {"domain", entry.domain},
                        {"lanes", function.lanes},
                        {"method_gap", gap_json(function, function.method, entry.method)},
                        {"arithmetic_gap", arithmetics},
+                       {"context_gap", here},
                        {"violations", function.violations}});
     }
-    for (const ModelAccuracy& model : models) all.push_back(model_json(model));
+    return all;
+}
+
+}  // namespace
+
+std::vector<std::string> AccuracyReport::violations() const {
+    std::vector<std::string> all;
+    const auto add = [&](const auto& rows) {
+        for (const auto& row : rows) all.insert(all.end(), row.violations.begin(), row.violations.end());
+    };
+    add(functions);
+    add(models);
+    add(storage);
+    add(frames);
+    return all;
+}
+
+std::string accuracy_text(const AccuracyReport& report) {
+    std::string text =
+        report.here.missing.empty() ? "here: " + report.here.driver : "here: nothing was drawn: " + report.here.missing;
+    text += "\n";
+    if (!report.functions.empty()) text += "\n" + functions_text(report.functions);
+    if (!report.models.empty()) text += "\n" + models_text(report.models);
+    if (!report.storage.empty()) text += "\n" + storage_text(report.storage);
+    if (!report.frames.empty()) text += "\n" + frames_text(report.frames);
+    const std::vector<std::string> violations = report.violations();
+    if (!violations.empty()) text += "\n";
+    for (const std::string& violation : violations) text += "exceeded: " + violation + "\n";
+    return text;
+}
+
+nlohmann::ordered_json accuracy_json(const AccuracyReport& report) {
+    Json here{{"driver", nullptr}, {"missing", nullptr}};
+    if (report.here.missing.empty()) here["driver"] = report.here.driver;
+    else here["missing"] = report.here.missing;
+    Json all{{"context", here}};
+    if (!report.functions.empty()) all["functions"] = functions_json(report.functions);
+    if (!report.models.empty()) all["models"] = models_json(report.models);
+    if (!report.storage.empty()) all["storage"] = storage_json(report.storage);
+    if (!report.frames.empty()) all["frames"] = frames_json(report.frames);
     return all;
 }
 

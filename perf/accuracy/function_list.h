@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -62,6 +63,9 @@ struct FunctionEntry {
     Bound in_float;       ///< shader in fp32 against the shader in double, like the next two
     Bound half;
     Bound flushed;  ///< half without subnormals, and the ES minimum
+    /// A real context, where the models' bounds are not its own: nothing is as `half` (or `flushed`) and `in_float`.
+    std::optional<Bound> here_mediump = std::nullopt;
+    std::optional<Bound> here_highp = std::nullopt;
 };
 
 /// Every function that is measured, of the effects that are in this build, in the order of all_effects().

@@ -9,6 +9,7 @@
 
 #include "engine/effects/tone_map/tone_map_reference.h"
 #include "engine/error.h"
+#include "perf/accuracy/function_bench.h"
 #include "perf/shader_ir/compile.h"
 
 namespace halfframe::accuracy {
@@ -17,13 +18,41 @@ namespace {
 using shader_ir::Columns;
 using shader_ir::Model;
 
-shader_ir::Module module_of(const FunctionEntry& entry) {
+gl::Define tier_define(const FunctionEntry& entry) {
     std::string tier = name(entry.tier);
     std::transform(tier.begin(), tier.end(), tier.begin(), [](char letter) {
         return letter >= 'a' && letter <= 'z' ? static_cast<char>(letter - 32) : letter;
     });
+    return {"TIER_" + tier, "1"};
+}
+
+shader_ir::Module module_of(const FunctionEntry& entry) {
     return shader_ir::compile(shader_ir::FunctionFiles{
-        .paths = entry.files, .arithmetic = entry.arithmetic, .defines = {{"TIER_" + tier, "1"}}, .more_text = ""});
+        .paths = entry.files, .arithmetic = entry.arithmetic, .defines = {tier_define(entry)}, .more_text = ""});
+}
+
+/// The results on a real context, one array per scalar.
+Columns drawn(const FunctionAccuracy& measured, gl::EntryPoints& gl, const gl::Caps& caps, gl::Arithmetic arithmetic) {
+    const FunctionEntry& entry = measured.entry;
+    DrawnFunction function{.function = entry.function,
+                           .files = entry.files,
+                           .arithmetic = arithmetic,
+                           .defines = {tier_define(entry)},
+                           .returned = static_cast<int>(measured.in_double.size())};
+    const shader_ir::Module module = module_of(entry);
+    const shader_ir::Function& declared = module.function(entry.function);
+    std::vector<Columns> inputs;
+    for (std::size_t i = 0; i < measured.arguments.size(); ++i) {
+        inputs.push_back(measured.arguments[i].values);
+        function.parameters.push_back({.components = static_cast<int>(inputs.back().size()),
+                                       .full = !module.relaxed[declared.parameters.at(i).id]});
+    }
+    const std::vector<float> pixels = draw_function(gl, caps, function, inputs);
+    Columns results(measured.in_double.size(), std::vector<double>(measured.lanes));
+    for (std::size_t s = 0; s < results.size(); ++s) {
+        for (std::size_t lane = 0; lane < measured.lanes; ++lane) results[s][lane] = pixels[lane * 4 + s];
+    }
+    return results;
 }
 
 double distance(const FunctionEntry& entry, const Lane& lane, std::size_t scalar, double found, double truth) {
@@ -126,7 +155,8 @@ FunctionAccuracy measure(const FunctionEntry& entry) {
     }
     const shader_ir::Module module = module_of(entry);
     const auto run = [&](Model model) { return shader_ir::evaluate(module, entry.function, inputs, model).returned; };
-    const Columns in_double = run(Model::in_double);
+    result.in_double = run(Model::in_double);
+    const Columns& in_double = result.in_double;
     expect(!in_double.empty() && in_double[0].size() == result.lanes, "a measured function returns one value per lane");
 
     const Columns truth = reference_values(entry, result.arguments, in_double.size(), result.lanes);
@@ -138,6 +168,25 @@ FunctionAccuracy measure(const FunctionEntry& entry) {
         judge(result.violations, entry, shader_ir::name(model), result.arithmetic[i], bound_of(entry, model));
     }
     return result;
+}
+
+void measure_here(FunctionAccuracy& function, gl::EntryPoints& gl, const gl::Caps& caps,
+                  const perf::PrecisionProbe& probe) {
+    const FunctionEntry& entry = function.entry;
+    const bool keeps_all = probe.mediump.keeps_subnormals || !probe.mediump.is_half();
+    HereGaps here;
+    here.mediump_bound = entry.here_mediump.value_or(keeps_all ? entry.half : entry.flushed);
+    here.highp_bound = entry.here_highp.value_or(entry.in_float);
+    const auto gap_of = [&](gl::Arithmetic arithmetic) {
+        return gap(entry, function.arguments, drawn(function, gl, caps, arithmetic), function.in_double);
+    };
+    here.highp = gap_of(gl::Arithmetic::full);
+    judge(function.violations, entry, "here, highp", here.highp, here.highp_bound);
+    if (entry.arithmetic == Arithmetic::half) {
+        here.mediump = gap_of(gl::Arithmetic::half);
+        judge(function.violations, entry, "here, mediump", *here.mediump, here.mediump_bound);
+    }
+    function.here = here;
 }
 
 }  // namespace halfframe::accuracy

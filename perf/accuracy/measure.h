@@ -3,10 +3,14 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "engine/gl/caps.h"
+#include "engine/gl/entry_points.h"
 #include "perf/accuracy/function_list.h"
+#include "perf/measure/precision_probe.h"
 #include "perf/shader_ir/precision.h"
 
 namespace halfframe::accuracy {
@@ -27,12 +31,22 @@ struct Gap {
     std::size_t not_finite = 0;  ///< results that are NaN or infinite; they are in no other figure
 };
 
+/// The function on a real context against the shader in double.
+struct HereGaps {
+    std::optional<Gap> mediump;  ///< nothing where the entry's arithmetic is full: no operation is mediump then
+    Gap highp;
+    Bound mediump_bound;
+    Bound highp_bound;
+};
+
 struct FunctionAccuracy {
     FunctionEntry entry;
     std::vector<Argument> arguments;
     std::size_t lanes = 0;
+    shader_ir::Columns in_double;                     ///< what the shader says, one array per scalar of the result
     Gap method;                                       ///< the shader in double against the reference
     std::array<Gap, kArithmetics.size()> arithmetic;  ///< the shader in each model against the shader in double
+    std::optional<HereGaps> here;                     ///< after measure_here()
     std::vector<std::string> violations;              ///< a sentence for every bound that does not hold
 };
 
@@ -40,5 +54,10 @@ struct FunctionAccuracy {
 /// the last bit on one C library. Error(check) for a shader that does not compile. Mistake: a reference that is not
 /// finite inside the domain, or an entry that does not fit its function.
 [[nodiscard]] FunctionAccuracy measure(const FunctionEntry& entry);
+
+/// Draws the function over the same inputs, in the entry's arithmetic and in full, and adds `here` and what it
+/// violates. The context takes LaneCanvas::obstacle() to be empty. `probe` says what mediump is on it.
+void measure_here(FunctionAccuracy& function, gl::EntryPoints& gl, const gl::Caps& caps,
+                  const perf::PrecisionProbe& probe);
 
 }  // namespace halfframe::accuracy

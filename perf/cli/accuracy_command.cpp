@@ -1,5 +1,7 @@
-// halfframe accuracy: how far shader functions are from their references, and what each arithmetic adds.
+// halfframe accuracy: how far shader functions are from their references, what each arithmetic and each storage adds,
+// and how far whole frames move when nothing should.
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,12 +13,17 @@
 #include "engine/frame/effect_card.h"
 #include "perf/accuracy/accuracy_report.h"
 #include "perf/accuracy/error_map.h"
+#include "perf/accuracy/frame_accuracy.h"
 #include "perf/accuracy/function_list.h"
+#include "perf/accuracy/lane_canvas.h"
 #include "perf/accuracy/measure.h"
 #include "perf/accuracy/model_list.h"
+#include "perf/accuracy/storage_accuracy.h"
 #include "perf/cli/command.h"
+#include "perf/cli/graphics_device.h"
 #include "perf/cli/spelling.h"
 #include "perf/cli/terminal.h"
+#include "perf/measure/precision_probe.h"
 #include "perf/report/picture_file.h"
 
 namespace halfframe::cli {
@@ -51,13 +58,21 @@ public:
     explicit AccuracyCommand(CLI::App& app) {
         CLI::App& command = *app.add_subcommand(
             "accuracy",
-            "Measures shader functions on the CPU: how far each is from its reference, and what float, half and the ES "
-            "minimum add");
-        command.add_option("EFFECT", effects_, "Effects to measure; without one, all that have such functions");
+            "Measures shader functions: how far each is from its reference, what float, half, the ES minimum and the "
+            "context here add, and what each storage of scene_color does to light. --frames: whole pictures instead");
+        CLI::Option* effects =
+            command.add_option("EFFECT", effects_, "Effects to measure; without one, all that have such functions");
+        command
+            .add_flag("--frames", frames_,
+                      "Draw the test room far from the origin, in other units, under other lights, from odd eyes and "
+                      "in odd sizes, at every tier, and compare")
+            ->excludes(effects);
         command.add_flag("--json", json_, "Standard output is one JSON value");
-        command.add_option("--maps", maps_,
-                           "Also write a .png with a map for each model: where it is too bright (red) or too dark "
-                           "(blue)");
+        command
+            .add_option("--maps", maps_,
+                        "Also write a .png with a map for each model: where it is too bright (red) or too dark (blue)")
+            ->type_name("FILE");
+        add_device_options(command, device_);
         command.footer(kExitCodes);
     }
 
@@ -65,35 +80,55 @@ public:
 
     int run() override {
         const std::vector<accuracy::FunctionEntry> entries = chosen(effects_);
-        std::vector<accuracy::FunctionAccuracy> functions;
-        bool sound = true;
+        accuracy::AccuracyReport report;
+        std::optional<GraphicsDevice> device;
+        open(device, report.here);
         Progress progress;
-        for (const accuracy::FunctionEntry& entry : entries) {
-            stop_if_interrupted();
-            progress.show(entry.effect + "." + entry.function);
-            functions.push_back(accuracy::measure(entry));
-            sound = sound && functions.back().violations.empty();
+        if (frames_) {
+            measure_frames(*device, progress, report);
+        } else {
+            measure_functions(entries, device, progress, report);
+            measure_models(progress, report);
         }
-        std::vector<accuracy::ModelAccuracy> models;
+        progress.clear();
+        if (!maps_.empty()) write_maps(report.models);
+        if (json_) {
+            print_json(accuracy::accuracy_json(report));
+        } else {
+            print(accuracy::accuracy_text(report));
+        }
+        return report.violations().empty() ? 0 : static_cast<int>(Fault::check);
+    }
+
+private:
+    /// Opens the device, or says why its figures are missing. One asked for by name must start, and frames need one.
+    void open(std::optional<GraphicsDevice>& device, accuracy::Here& here) const {
+        try {
+            device.emplace(device_);
+        } catch (const platform::ContextError& error) {
+            if (frames_ || device_.context != "auto") throw;
+            here.missing = error.what();
+            return;
+        }
+        const gl::Caps& caps = device->caps();
+        here.driver = fmt::format("{}, {}; {}", caps.renderer, device->context().description(),
+                                  perf::probe_precision(device->gl(), caps).sentence);
+        here.missing = accuracy::LaneCanvas::obstacle(caps);
+        if (frames_ && !here.missing.empty()) {
+            throw Error(Fault::usage, "frames are counted in RGBA32F targets, and here " + here.missing +
+                                          "; leave --device out or try another --context");
+        }
+    }
+
+    void measure_models(Progress& progress, accuracy::AccuracyReport& report) const {
         for (const accuracy::ModelEntry& entry : accuracy::model_list()) {
             if (!effects_.empty() && !holds(effects_, entry.effect)) continue;
             stop_if_interrupted();
             progress.show(entry.effect + ", " + entry.model);
-            models.push_back(accuracy::measure(entry));
-            sound = sound && models.back().violations.empty();
+            report.models.push_back(accuracy::measure(entry));
         }
-        progress.clear();
-        if (!maps_.empty()) write_maps(models);
-        if (json_) {
-            print_json(accuracy::accuracy_json(functions, models));
-        } else {
-            print(accuracy::accuracy_text(functions));
-            print(accuracy::models_text(models));
-        }
-        return sound ? 0 : static_cast<int>(Fault::check);
     }
 
-private:
     void write_maps(const std::vector<accuracy::ModelAccuracy>& models) const {
         if (models.empty()) {
             throw Error(Fault::usage,
@@ -102,8 +137,41 @@ private:
         perf::write_png(maps_, accuracy::error_maps(models));
     }
 
+    static void measure_frames(GraphicsDevice& device, Progress& progress, accuracy::AccuracyReport& report) {
+        accuracy::FrameBench bench(device.gl(), device.caps());
+        for (const accuracy::FrameCase& pair : accuracy::frame_cases()) {
+            for (const Tier tier : {Tier::low, Tier::console, Tier::reference}) {
+                for (const Arithmetic arithmetic : {Arithmetic::full, Arithmetic::half}) {
+                    stop_if_interrupted();
+                    progress.show(
+                        fmt::format("{}, {} {}", pair.change, halfframe::name(tier), halfframe::name(arithmetic)));
+                    report.frames.push_back(bench.measure(pair, tier, arithmetic));
+                }
+            }
+        }
+    }
+
+    void measure_functions(const std::vector<accuracy::FunctionEntry>& entries, std::optional<GraphicsDevice>& device,
+                           Progress& progress, accuracy::AccuracyReport& report) const {
+        const bool draws = device && report.here.missing.empty();
+        const perf::PrecisionProbe probe =
+            draws ? perf::probe_precision(device->gl(), device->caps()) : perf::PrecisionProbe{};
+        for (const accuracy::FunctionEntry& entry : entries) {
+            stop_if_interrupted();
+            progress.show(entry.effect + "." + entry.function);
+            report.functions.push_back(accuracy::measure(entry));
+            if (draws) accuracy::measure_here(report.functions.back(), device->gl(), device->caps(), probe);
+        }
+        if (!effects_.empty() || !draws) return;  // storage belongs to no effect
+        stop_if_interrupted();
+        progress.show("storage");
+        report.storage = accuracy::measure_storage(device->gl(), device->caps());
+    }
+
     std::vector<std::string> effects_;
+    bool frames_ = false;
     bool json_ = false;
+    DeviceOptions device_;
     std::string maps_;
 };
 

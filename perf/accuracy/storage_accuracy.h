@@ -1,0 +1,45 @@
+// What storing light in scene_color does to the picture: each format of the ladder, on a real context.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/gl/caps.h"
+#include "engine/gl/entry_points.h"
+#include "engine/gl/pixel_format.h"
+#include "perf/accuracy/function_list.h"
+
+namespace halfframe::accuracy {
+
+/// Where the stored values come from.
+enum class StoredSource : std::uint8_t {
+    light,  ///< light 0..8, as surfaces leave it: half of it even in what the display shows, half in its logarithm
+    display_codes,  ///< the 256 display values of an LDR sky, through the inverse tone curve
+};
+[[nodiscard]] const char* name(StoredSource source);
+
+struct StorageAccuracy {
+    gl::PixelFormat format = gl::PixelFormat::rgba16f;
+    StoredSource source = StoredSource::light;
+    std::string missing;  ///< why nothing was measured; empty: it was
+    std::size_t lanes = 0;
+    double largest = 0.0;  ///< [display codes], against the tone curve's reference of the unrounded light, like p99
+    double p99 = 0.0;      ///< 99 of 100 errors are at most this
+    double mean = 0.0;     ///< signed: below 0 where storing darkens
+    double worst_light = 0.0;
+    int worst_channel = 0;       ///< 0 red, 1 green, 2 blue
+    std::size_t not_finite = 0;  ///< in no other figure
+    Bound bound;
+    std::vector<std::string> violations;  ///< a sentence for every bound that does not hold
+};
+
+/// How far light may be off behind a format, whether it rounds to nearest or towards zero.
+[[nodiscard]] Bound storage_bound(gl::PixelFormat format, StoredSource source);
+
+/// Writes both sources to a target of each format as surfaces and sky do, and reads them back through tone_map.frag in
+/// highp; an RGBA8 target holds display values and is read as it is. `missing` says why a format has no figures.
+[[nodiscard]] std::vector<StorageAccuracy> measure_storage(gl::EntryPoints& gl, const gl::Caps& caps);
+
+}  // namespace halfframe::accuracy

@@ -23,8 +23,21 @@ std::string distance_text(const FrameAccuracy& frame) {
     return fmt::format("{} / {:.2f} %", frame.max_channel_error, 100.0 * frame.bad_fraction);
 }
 
-std::string bound_text(const FrameBound& bound) {
-    return fmt::format("{} / {:.2f} %, {}", bound.max_channel_error, 100.0 * bound.max_bad_fraction, bound.reason);
+/// Every bound that is not 0, once, with the pairs it is for.
+std::string bounds_text(const std::vector<FrameAccuracy>& frames) {
+    std::vector<std::pair<std::string, std::string>> bounds;  // text, pairs
+    for (const FrameAccuracy& frame : frames) {
+        if (frame.bound.max_channel_error == 0) continue;
+        const std::string text = fmt::format("  {} / {:.2f} %: {}\n", frame.bound.max_channel_error,
+                                             100.0 * frame.bound.max_bad_fraction, frame.bound.reason);
+        const std::string pair = fmt::format("      {} ({})\n", frame.change, halfframe::name(frame.arithmetic));
+        auto known = std::ranges::find(bounds, text, &std::pair<std::string, std::string>::first);
+        if (known == bounds.end()) known = bounds.insert(bounds.end(), {text, ""});
+        if (known->second.find(pair) == std::string::npos) known->second += pair;
+    }
+    std::string all;
+    for (const auto& [text, pairs] : bounds) all += text + pairs;
+    return all;
 }
 
 bool same_pair(const FrameAccuracy& a, const FrameAccuracy& b) { return a.kind == b.kind && a.change == b.change; }
@@ -91,7 +104,6 @@ std::string frames_text(const std::vector<FrameAccuracy>& frames) {
     columns.push_back({"not finite", Align::right});
     columns.push_back({"bounds", Align::left});
     perf::TextTable table(columns);
-    std::string reasons;
     for (auto first = frames.begin(); first != frames.end();) {
         const auto last =
             std::find_if_not(first, frames.end(), [&](const auto& row) { return same_pair(row, *first); });
@@ -102,9 +114,6 @@ std::string frames_text(const std::vector<FrameAccuracy>& frames) {
             cells.push_back(distance_text(*row));
             not_finite += row->not_finite;
             holds = holds && row->violations.empty();
-            const std::string reason =
-                fmt::format("  {}, {}: {}\n", row->change, halfframe::name(row->arithmetic), bound_text(row->bound));
-            if (row->bound.max_channel_error > 0 && reasons.find(reason) == std::string::npos) reasons += reason;
         }
         cells.push_back(std::to_string(not_finite));
         cells.push_back(holds ? "hold" : "exceeded");
@@ -114,7 +123,7 @@ std::string frames_text(const std::vector<FrameAccuracy>& frames) {
     return "Frames: the test room drawn twice, the second time changed. Largest channel error of 255, and the share of "
            "pixels\nthat differ at all; 0: to the bit. Where light is added, only what got darker counts. not finite: "
            "NaN and inf in\nevery colour target, drawn once more as RGBA32F.\n\n" +
-           table.text() + "\nBounds that are not 0\n" + reasons;
+           table.text() + "\nBounds that are not 0, and what they are for\n" + bounds_text(frames);
 }
 
 nlohmann::ordered_json frames_json(const std::vector<FrameAccuracy>& frames) {

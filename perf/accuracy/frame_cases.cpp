@@ -91,7 +91,7 @@ constexpr FrameBound kRoundedInHalf{
 constexpr const char* kLengthOfNormal =
     "half leaves a normal 2^-11 too long or short, by the order of the axes, and this tier's lobe as written raises "
     "that to "
-    "a power of 500: 29 / 0.0004, one pixel of a highlight";
+    "a power of 500: 29 codes in a pixel or two of a highlight";
 
 /// Against the origin: what floats can say of a place that far away is in these.
 void bound_moved(FrameCase& pair, const Units& units, double distance_km) {
@@ -107,26 +107,42 @@ void bound_moved(FrameCase& pair, const Units& units, double distance_km) {
     }
 }
 
-std::vector<FrameCase> moved_cases() {
+/// One pair for every unit and distance.
+template <typename Pair>
+std::vector<FrameCase> far_pairs(Pair pair) {
     std::vector<FrameCase> list;
     for (const Units& units : {kMetres, kCentimetres, kMillimetres}) {
         for (const double distance_km : {1.0, 10.0}) {
+            FrameCase made = pair(units, distance_km);
             const glm::dvec3 far = offset(units, distance_km);
-            FrameCase from_origin;
-            from_origin.kind = "moved";
-            from_origin.change = fmt::format("{:.0f} km away, in {}, against the origin", distance_km, units.name);
-            from_origin.plain = room;
-            from_origin.changed = [=] { return moved(in_units(room(), units.per_metre), far); };
-            FrameCase from_places = from_origin;
-            bound_moved(from_origin, units, distance_km);
-            list.push_back(from_origin);
-            from_places.kind = "far_places";
-            from_places.change = fmt::format("{:.0f} km away, in {}, against its own places", distance_km, units.name);
-            from_places.plain = [=] { return with_places_of(in_units(room(), units.per_metre), far); };
-            list.push_back(from_places);
+            made.changed = [=] { return moved(in_units(room(), units.per_metre), far); };
+            list.push_back(made);
         }
     }
     return list;
+}
+
+std::vector<FrameCase> moved_cases() {
+    return far_pairs([](const Units& units, double distance_km) {
+        FrameCase made;
+        made.kind = "moved";
+        made.change = fmt::format("{:.0f} km away, in {}, against the origin", distance_km, units.name);
+        made.plain = room;
+        bound_moved(made, units, distance_km);
+        return made;
+    });
+}
+
+/// Against places that were rounded alike: what is left is the renderer's own, and that is nothing.
+std::vector<FrameCase> far_place_cases() {
+    return far_pairs([](const Units& units, double distance_km) {
+        FrameCase made;
+        made.kind = "far_places";
+        made.change = fmt::format("{:.0f} km away, in {}, against its own places", distance_km, units.name);
+        const glm::dvec3 far = offset(units, distance_km);
+        made.plain = [=] { return with_places_of(in_units(room(), units.per_metre), far); };
+        return made;
+    });
 }
 
 std::vector<FrameCase> unit_cases() {
@@ -211,7 +227,7 @@ std::vector<FrameCase> eye_cases() {
     parallel.full = {2, 0.4,
                      "rays differ by up to 2e-4; of a sky that lies between two codes a fifth turns: 1 / 0.196"};
     parallel.half = {4, 0.1, "as in full: 2 / 0.047"};
-    parallel.reference_half = {34, 0.1, "as for turned: 17 / 0.049"};
+    parallel.reference_half = {34, 0.1, kLengthOfNormal};
     list.push_back(parallel);
     return list;
 }
@@ -272,7 +288,7 @@ const FrameBound& bound_of(const FrameCase& pair, Tier tier, Arithmetic arithmet
 std::vector<FrameCase> frame_cases() {
     std::vector<FrameCase> list;
     for (const std::vector<FrameCase>& part :
-         {moved_cases(), unit_cases(), light_cases(), eye_cases(), shape_cases(), size_cases()}) {
+         {moved_cases(), far_place_cases(), unit_cases(), light_cases(), eye_cases(), shape_cases(), size_cases()}) {
         list.insert(list.end(), part.begin(), part.end());
     }
     return list;

@@ -12,7 +12,10 @@
 namespace halfframe::accuracy {
 
 std::string LaneCanvas::obstacle(const gl::Caps& caps) {
-    if (caps.es_version < 30) return fmt::format("texelFetch needs ES 3.0, and this is {}", caps.version);
+    if (caps.es_version < 30) {
+        return fmt::format("texelFetch needs ES 3.0, and {} is ES {}.{}", caps.device, caps.es_version / 10,
+                           caps.es_version % 10);
+    }
     if (!caps.renders[static_cast<std::size_t>(gl::PixelFormat::rgba32f)])
         return fmt::format("{} does not render RGBA32F", caps.renderer);
     return {};

@@ -20,7 +20,7 @@ TEST(AccuracyCommand, JsonAloneIsOnStandardOutput) {
     const ChildResult result = accuracy({"tone_map", "sky", "--json"});
     ASSERT_EQ(result.exit_code, 0) << result.story();
     EXPECT_TRUE(result.errors.empty()) << result.errors;
-    const auto functions = nlohmann::json::parse(result.output);
+    const auto functions = nlohmann::json::parse(result.output).at("functions");
     ASSERT_EQ(functions.size(), 3u);
     for (const auto& function : functions) {
         EXPECT_TRUE(function.at("violations").empty());
@@ -47,21 +47,50 @@ TEST(AccuracyCommand, ModelsFollowTheFunctionsAndCanBeDrawn) {
     std::filesystem::remove(maps);
     const ChildResult result = accuracy({"surface", "--json", "--maps", maps});
     ASSERT_EQ(result.exit_code, 0) << result.story();
-    std::size_t models = 0;
-    for (const auto& element : nlohmann::json::parse(result.output)) {
-        EXPECT_NE(element.contains("function"), element.contains("model"));
-        if (!element.contains("model")) continue;
+    const auto report = nlohmann::json::parse(result.output);
+    for (const auto& element : report.at("models")) {
         EXPECT_GE(element.at("highest").get<double>(), element.at("lowest").get<double>());
         EXPECT_LE(element.at("mean").get<double>(), element.at("mean_bound").get<double>());
         EXPECT_FALSE(element.at("worst_place").empty());
-        ++models;
     }
-    EXPECT_EQ(models, 5u);
+    EXPECT_EQ(report.at("models").size(), 5u);
     EXPECT_GT(std::filesystem::file_size(maps), 1000u);
     std::filesystem::remove(maps);
     const ChildResult none = accuracy({"sky", "--maps", maps});
     EXPECT_EQ(none.exit_code, 2) << none.story();
     EXPECT_FALSE(std::filesystem::exists(maps));
+}
+
+TEST(AccuracyCommand, TheContextIsNamedAndItsFiguresAreThere) {
+    const ChildResult result = accuracy({"--json"});
+    ASSERT_EQ(result.exit_code, 0) << result.story();
+    const auto report = nlohmann::json::parse(result.output);
+    if (report.at("context").at("driver").is_null()) GTEST_SKIP() << report.at("context").at("missing");
+    for (const auto& function : report.at("functions")) {
+        const auto& here = function.at("context_gap");
+        EXPECT_LE(here.at("highp").at("largest").get<double>(), here.at("highp").at("bound").get<double>());
+        EXPECT_EQ(here.contains("mediump"), function.at("arithmetic") == "half");
+    }
+    ASSERT_EQ(report.at("storage").size(), 10u);
+    for (const auto& row : report.at("storage")) EXPECT_NE(row.contains("missing"), row.contains("largest"));
+}
+
+TEST(AccuracyCommand, WithoutADrawableContextTheReasonIsPrinted) {
+    const ChildResult result = accuracy({"tone_map", "--device", "es2-minimum"});
+    ASSERT_EQ(result.exit_code, 0) << result.story();
+    EXPECT_NE(result.output.find("nothing was drawn: texelFetch needs ES 3.0"), std::string::npos) << result.output;
+    const ChildResult json = accuracy({"tone_map", "--device", "es2-minimum", "--json"});
+    const auto report = nlohmann::json::parse(json.output);
+    EXPECT_TRUE(report.at("functions").at(0).at("context_gap").is_null());
+    EXPECT_FALSE(report.at("context").at("missing").get<std::string>().empty());
+}
+
+TEST(AccuracyCommand, WholeFramesHaveATableOfTheirOwn) {
+    const ChildResult refused = accuracy({"tone_map", "--frames"});
+    EXPECT_EQ(refused.exit_code, 2) << refused.story();
+    const ChildResult poor = accuracy({"--frames", "--device", "es2-minimum"});
+    EXPECT_EQ(poor.exit_code, 2) << poor.story();
+    EXPECT_NE(poor.errors.find("RGBA32F"), std::string::npos) << poor.errors;
 }
 
 TEST(AccuracyCommand, AnUnknownEffectIs2AndNamesTheNearest) {

@@ -136,7 +136,8 @@ TEST(BuiltIn, UnknownNamesOfferTheNearest) {
     } catch (const Error& error) {
         EXPECT_EQ(error.fault(), Fault::input);
         EXPECT_NE(std::string(error.what()).find("did you mean 'test_room'?"), std::string::npos) << error.what();
-        EXPECT_NE(std::string(error.what()).find("furnace, test_room, lamps, empty"), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find("furnace, test_room, lamps, empty"), std::string::npos)
+            << error.what();
     }
 }
 

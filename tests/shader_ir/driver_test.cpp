@@ -1,16 +1,14 @@
 // Whether the half model is the truth: the same functions on a real context with mediump, to the bit.
 //
-// Each function gets a fragment shader that fetches its parameters from float textures and writes what it returns to a
-// float target. Inputs of mediump parameters are halves, so that it does not matter whether the driver narrows them
-// before or after a lone operation; what comes back is rounded to half, since a mediump result may be handed on in 32
-// bits (Mesa runs a lone mediump operation between 32-bit values in 32 bits).
+// Each function is drawn by perf/accuracy/function_bench. Inputs of mediump parameters are halves, so that it does not
+// matter whether the driver narrows them before or after a lone operation; what comes back is rounded to half, since a
+// mediump result may be handed on in 32 bits (Mesa runs a lone mediump operation between 32-bit values in 32 bits).
 #include <fmt/format.h>
 
 #include <cmath>
 #include <random>
 
-#include "engine/gl/object.h"
-#include "engine/gl/pixel_format.h"
+#include "perf/accuracy/function_bench.h"
 #include "perf/measure/precision_probe.h"
 #include "tests/harness/gl_fixture.h"
 #include "tests/shader_ir/run.h"
@@ -95,116 +93,20 @@ Columns columns_of(const Parameter& parameter, std::size_t place) {
     return result;
 }
 
-/// Draws one function over all lanes and reads back what it returns.
-class Bench {
-public:
-    Bench(harness::Ground& ground, std::vector<std::string> files, std::string text)
-        : gl_(ground.gl), caps_(ground.caps), files_(std::move(files)), text_(std::move(text)) {
-        corners_ = gl::create<gl::Kind::buffer>(gl_);
-        gl_.BindBuffer(GL_ARRAY_BUFFER, corners_.name());
-        constexpr std::array<float, 6> kCorners{-1.0f, -1.0f, 3.0f, -1.0f, -1.0f, 3.0f};
-        gl_.BufferData(GL_ARRAY_BUFFER, sizeof(kCorners), kCorners.data(), GL_STATIC_DRAW);
-        gl_.EnableVertexAttribArray(0);
-        gl_.VertexAttribPointer(0, 2, GL_FLOAT, GL_FALSE, 0, nullptr);
-        target_ = texture(nullptr);
-        framebuffer_ = gl::create<gl::Kind::framebuffer>(gl_);
-        gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
-        gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target_.name(), 0);
-        drawable_ = gl_.CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
-        gl_.Viewport(0, 0, kSide, kSide);
+/// RGBA of every lane, in half arithmetic at the console tier.
+std::vector<float> drawn_by(harness::Ground& ground, const std::vector<std::string>& files, const std::string& text,
+                            const Probe& probe, const std::vector<Columns>& inputs) {
+    accuracy::DrawnFunction function{.function = probe.function,
+                                     .files = files,
+                                     .more_text = text,
+                                     .arithmetic = gl::Arithmetic::half,
+                                     .defines = {{"TIER_CONSOLE", "1"}},
+                                     .returned = components(probe.returns)};
+    for (const Parameter& parameter : probe.parameters) {
+        function.parameters.push_back({.components = components(parameter.type), .full = is_full(parameter.draw)});
     }
-    ~Bench() {
-        gl_.BindFramebuffer(GL_FRAMEBUFFER, 0);
-        gl_.DisableVertexAttribArray(0);
-        gl_.BindBuffer(GL_ARRAY_BUFFER, 0);
-        gl_.UseProgram(0);
-    }
-    Bench(const Bench&) = delete;
-    Bench& operator=(const Bench&) = delete;
-
-    [[nodiscard]] bool drawable() const { return drawable_; }
-
-    /// RGBA of every lane.
-    std::vector<float> draw(const Probe& probe, const std::vector<Columns>& inputs) {
-        const std::string main = main_of(probe);
-        std::vector<gl::ShaderFile> files(gl::shader_files().begin(), gl::shader_files().end());
-        files.push_back({"<functions>", text_});
-        files.push_back({"<main>", main});
-        gl::ProgramCache programs(gl_, caps_, {}, files);
-        gl::ProgramDescription description;
-        description.name = probe.function;
-        description.vertex = "probe/precision.vert";
-        description.fragment = "<main>";
-        description.arithmetic = gl::Arithmetic::half;
-        description.defines = {{"TIER_CONSOLE", "1"}};
-        description.attributes = {{"position", 0}};
-        gl::Program& program = programs.get(description);
-        gl_.UseProgram(program.name());
-        std::vector<gl::Texture> textures;
-        for (std::size_t i = 0; i < inputs.size(); ++i) {
-            gl_.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(i));
-            textures.push_back(texture(&inputs[i]));
-            gl_.Uniform1i(program.uniform(fmt::format("input_{}", i)), static_cast<GLint>(i));
-        }
-        gl_.ActiveTexture(GL_TEXTURE0);
-        gl_.Clear(GL_COLOR_BUFFER_BIT);
-        gl_.DrawArrays(GL_TRIANGLES, 0, 3);
-        std::vector<float> pixels(kLanes * 4);
-        gl_.ReadPixels(0, 0, kSide, kSide, GL_RGBA, GL_FLOAT, pixels.data());
-        return pixels;
-    }
-
-private:
-    [[nodiscard]] std::string main_of(const Probe& probe) const {
-        std::string text;
-        for (const std::string& file : files_) text += fmt::format("#include \"{}\"\n", file);
-        text += "#include \"<functions>\"\n";
-        std::string body = "    ivec2 lane = ivec2(gl_FragCoord.xy);\n";
-        std::string arguments;
-        for (std::size_t i = 0; i < probe.parameters.size(); ++i) {
-            const Parameter& parameter = probe.parameters[i];
-            text += fmt::format("uniform highp sampler2D input_{};\n", i);
-            body += fmt::format("    {} {} a{} = texelFetch(input_{}, lane, 0).{};\n",
-                                is_full(parameter.draw) ? "highp" : "mediump", parameter.type, i, i,
-                                std::string("rgba").substr(0, static_cast<std::size_t>(components(parameter.type))));
-            arguments += fmt::format("{}a{}", i == 0 ? "" : ", ", i);
-        }
-        const int returned = components(probe.returns);
-        const std::string plain = probe.function.substr(0, probe.function.find('('));
-        body += fmt::format("    fragment_color = vec4({}({}){});\n", plain, arguments,
-                            returned == 1   ? ", 0.0, 0.0, 1.0"
-                            : returned == 2 ? ", 0.0, 1.0"
-                            : returned == 3 ? ", 1.0"
-                                            : "");
-        return text + "void main() {\n" + body + "}\n";
-    }
-
-    gl::Texture texture(const Columns* columns) {
-        std::vector<float> texels(kLanes * 4, 0.0f);
-        for (std::size_t s = 0; columns != nullptr && s < columns->size(); ++s) {
-            for (std::size_t lane = 0; lane < kLanes; ++lane) {
-                texels[lane * 4 + s] = static_cast<float>((*columns)[s][lane]);
-            }
-        }
-        gl::Texture result = gl::create<gl::Kind::texture>(gl_);
-        gl_.BindTexture(GL_TEXTURE_2D, result.name());
-        const gl::TransferFormat format = gl::transfer_format(gl::PixelFormat::rgba32f, false);
-        gl_.TexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(format.internal_format), kSide, kSide, 0, format.format,
-                       format.type, texels.data());
-        gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-        gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-        return result;
-    }
-
-    gl::EntryPoints& gl_;
-    const gl::Caps& caps_;
-    std::vector<std::string> files_;
-    std::string text_;
-    gl::Buffer corners_;
-    gl::Texture target_;
-    gl::Framebuffer framebuffer_;
-    bool drawable_ = false;
-};
+    return accuracy::draw_function(ground.gl, ground.caps, function, inputs);
+}
 
 /// Equal as halves; any NaN equals any other, and GLSL leaves the sign of zero open.
 bool agree(double model, double driver) {
@@ -218,8 +120,8 @@ protected:
     void SetUp() override {
         GlFixture::SetUp();
         if (IsSkipped()) return;
-        if (caps().es_version < 30)
-            GTEST_SKIP() << "this context is ES " << caps().es_version << "; texelFetch needs 30";
+        if (const std::string obstacle = accuracy::LaneCanvas::obstacle(caps()); !obstacle.empty())
+            GTEST_SKIP() << obstacle;
         if (caps().renderer.find("llvmpipe") == std::string::npos) {
             GTEST_SKIP() << "the half model is llvmpipe's, this is " << caps().renderer;
         }
@@ -233,8 +135,6 @@ protected:
     /// Each probe against the model; prints and bounds how many lanes differ.
     void expect_agreement(const std::vector<std::string>& files, const std::string& text,
                           const std::vector<Probe>& probes) {
-        Bench bench(ground(), files, text);
-        if (!bench.drawable()) GTEST_SKIP() << "this context cannot draw to RGBA32F: " << caps().version;
         const Module module = compile(FunctionFiles{
             .paths = files, .arithmetic = gl::Arithmetic::half, .defines = {{"TIER_CONSOLE", "1"}}, .more_text = text});
         ASSERT_FALSE(probes.empty());
@@ -243,7 +143,7 @@ protected:
             for (std::size_t i = 0; i < probe.parameters.size(); ++i) {
                 inputs.push_back(columns_of(probe.parameters[i], i));
             }
-            const std::vector<float> pixels = bench.draw(probe, inputs);
+            const std::vector<float> pixels = drawn_by(ground(), files, text, probe, inputs);
             const std::size_t as_written = mismatches(probe, inputs, module, probe.function, pixels);
             if (probe.as_compiled == nullptr) continue;
             // The list is that of Mesa 22.3; another version may compute as written.
@@ -457,10 +357,10 @@ TEST_F(HalfOnTheDriver, RewritesTheseExpressionsAsNamed) {
 
 TEST_F(HalfOnTheDriver, SeesAPlantedDifference) {
     // The sum taken the other way round differs in some lanes: the comparison can tell.
-    Bench bench(ground(), {}, "float sum(vec3 x, vec3 y) { return (x.x * y.x + x.y * y.y) + x.z * y.z; }\n");
+    const std::string text = "float sum(vec3 x, vec3 y) { return (x.x * y.x + x.y * y.y) + x.z * y.z; }\n";
     const Probe probe{"sum", "float", {{"vec3", Draw::wide}, {"vec3", Draw::wide}}};
     const std::vector<Columns> inputs{columns_of(probe.parameters[0], 0), columns_of(probe.parameters[1], 1)};
-    const std::vector<float> pixels = bench.draw(probe, inputs);
+    const std::vector<float> pixels = drawn_by(ground(), {}, text, probe, inputs);
     const Module module = module_of("float sum(vec3 x, vec3 y) { return dot(x, y); }\n", gl::Arithmetic::half);
     const Columns model = evaluate(module, "sum", inputs, Model::half).returned;
     std::size_t mismatches = 0;

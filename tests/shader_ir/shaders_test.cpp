@@ -271,19 +271,13 @@ TEST(Shaders, MainOfTheSurfaceIsEvaluatedInEveryModelAsWrittenAndCleaned) {
         }
         return result;
     };
-    bindings.variables = {{"vertex_to_eye", {{0}, {0}, {3}}},
-                          {"vertex_uv", {{0.5}, {0.5}}},
-                          {"vertex_normal", {{0}, {0}, {1}}},
-                          {"vertex_tangent", {{1}, {0}, {0}, {1}}},
-                          {"base_color", {{0.8}, {0.8}, {0.8}, {1}}},
-                          {"emissive", {{0}, {0}, {0}, {0.5}}},
-                          {"factors", {{0}, {0.5}, {1}, {0}}},
-                          {"ambient", {{0.1}, {0.1}, {0.1}, {0}}},
-                          {"sun_direction", {{0}, {0}, {1}, {0}}},
-                          {"sun_color", {{1}, {1}, {1}, {0}}},
-                          {"light_position", repeat({0, 0, -2, 0.01}, 8)},
-                          {"light_color", repeat({1, 1, 1, 0}, 8)},
-                          {"light_direction", repeat({0, 0, 1, 0}, 8)},
+    bindings.variables = {{"vertex_to_eye", {{0}, {0}, {3}}},         {"vertex_uv", {{0.5}, {0.5}}},
+                          {"vertex_normal", {{0}, {0}, {1}}},         {"vertex_tangent", {{1}, {0}, {0}, {1}}},
+                          {"base_color", {{0.8}, {0.8}, {0.8}, {1}}}, {"emissive", {{0}, {0}, {0}, {0.5}}},
+                          {"factors", {{0}, {0.5}, {1}, {0}}},        {"ambient", {{0.1}, {0.1}, {0.1}, {0}}},
+                          {"parallel_eye", {{0}, {0}, {0}, {1}}},     {"sun_direction", {{0}, {0}, {1}, {0}}},
+                          {"sun_color", {{1}, {1}, {1}, {0}}},        {"light_position", repeat({0, 0, -2, 0.01}, 8)},
+                          {"light_color", repeat({1, 1, 1, 0}, 8)},   {"light_direction", repeat({0, 0, 1, 0}, 8)},
                           {"light_count", {{1}, {0}, {0}, {0}}}};
     for (const Cleaning cleaning : {Cleaning::none, Cleaning::inlined}) {
         const Module module = compile(surface, gl::Stage::fragment, cleaning);

@@ -1,4 +1,4 @@
-// What is drawn: glTF files, built-in scenes, and the data files of content/ (devices, budgets).
+// What is drawn: glTF files, built-in scenes, environments, and the data files of content/ (devices, budgets).
 #pragma once
 
 #include <filesystem>

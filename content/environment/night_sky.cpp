@@ -124,7 +124,7 @@ glm::dvec3 night_sky_radiance(const glm::dvec3& direction) {
     const double azimuth_deg = std::atan2(direction.x, -direction.z) / kDegree;
     if (elevation_deg >= 0.0) return above_ground(azimuth_deg, elevation_deg);
     // The street is wet: it shows the city upside down, dimmer the steeper one looks, and longer than it is.
-    const double mirrored = 0.02 + 0.43 * std::exp(elevation_deg / 16.0);
+    const double mirrored = 0.012 + 0.44 * std::exp(elevation_deg / 13.0);
     return glm::dvec3(0.010, 0.011, 0.014) + mirrored * above_ground(azimuth_deg, -0.7 * elevation_deg);
 }
 

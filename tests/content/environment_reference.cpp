@@ -67,8 +67,8 @@ glm::dvec3 gradient_radiance(const FormulaSky& sky, const glm::dvec3& direction)
 }
 
 glm::dvec3 lobe_integral(const FormulaSky& sky, const glm::dvec3& axis, double power) {
-    constexpr int kRings = 512;
-    constexpr int kSpokes = 16;  // the gradient is of second degree: 3 would be enough
+    constexpr int kRings = 160;
+    constexpr int kSpokes = 8;  // the gradient is of second degree: 3 would be enough
     glm::dvec3 sum(0.0);
     for (int ring = 0; ring < kRings; ++ring) {
         // Rings of equal weight under the lobe: its integral from cosine c to 1 is 1 - c^(power + 1).

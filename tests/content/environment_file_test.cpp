@@ -26,7 +26,7 @@ using content::Equirectangular;
 std::string hdr(int width, int height, const std::vector<std::uint8_t>& pixels, const std::string& extra = {}) {
     std::string bytes = "#?RADIANCE\n" + extra + "FORMAT=32-bit_rle_rgbe\n\n-Y " + std::to_string(height) + " +X " +
                         std::to_string(width) + "\n";
-    append(bytes, pixels);
+    bytes.append(pixels.begin(), pixels.end());
     return bytes;
 }
 

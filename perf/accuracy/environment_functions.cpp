@@ -68,6 +68,20 @@ std::vector<FunctionEntry> environment_functions() {
                     "unit of light"};
     diffuse.flushed = {1.2, "as half"};
 
+    FunctionEntry level = entry("reflection_level", "smoothness 0..1, four levels");
+    level.arguments = [] {
+        const Columns u = unit_cube(1);
+        return std::vector<Argument>{{"smoothness", u}, {"roughest", {std::vector<double>(u[0].size(), 4.0)}}};
+    };
+    level.reference = [](const Lane& in, std::size_t) { return reference::reflection_level(in(0), in(1)); };
+    level.unit = Unit::absolute;
+    level.method = {1e-6, kSameFormula};
+    level.in_float = {4e-6, "a rounding of levels up to 4; where the fraction jumps both sides give the same level"};
+    level.half = {0.02,
+                  "1 - smoothness is off by 2^-12, times 4 levels, times the bend's slope of 1.82; two roundings of a "
+                  "level up to 4 follow, 2^-9 each"};
+    level.flushed = {0.02, "as half"};
+
     FunctionEntry unpacked = entry("unpacked_rgbm", "texels 0..1, root of the range 0.125..8");
     unpacked.arguments = [] {
         const Columns u = unit_cube(5);
@@ -105,7 +119,7 @@ std::vector<FunctionEntry> environment_functions() {
     mixed.half = {0.8,
                   "the weight is a rounded difference, 2^-11, of two colours up to 2 apart: 1e-3 of light in the dark"};
     mixed.flushed = {0.8, "as half"};
-    return {diffuse, unpacked, mixed};
+    return {diffuse, level, unpacked, mixed};
 }
 
 }  // namespace halfframe::accuracy

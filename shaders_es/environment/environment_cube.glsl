@@ -13,7 +13,7 @@ vec3 environment_irradiance(vec3 n) {
 
 // Half is enough for a direction here: its 11 bits are a thirtieth of a degree, a texel of the largest cube half a degree.
 vec3 environment_reflection(vec3 toward, float smoothness) {
-    vec4 stored = sample_cube_lod(reflection_map, toward, (1.0 - smoothness) * reflection_scale.y);
+    vec4 stored = sample_cube_lod(reflection_map, toward, reflection_level(smoothness, reflection_scale.y));
 #ifdef TIER_REFERENCE
     return stored.rgb * reflection_scale.x;
 #else

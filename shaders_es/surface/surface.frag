@@ -5,6 +5,7 @@
 //   surface.lighting  light holds all reflected light
 //   surface.color     color holds what will be stored
 #include "surface/surface_limits.h"
+#include "surface/surface_lights.glsl"
 #include "common/maths.glsl"
 #include "common/colour.glsl"
 #include "common/packing.glsl"
@@ -49,12 +50,12 @@ uniform HALF vec4 sun_color;      // rgb
 #ifdef TIER_LOW
 FRAGMENT_IN HALF vec3 vertex_light;
 #else
-uniform FULL vec4 light_position[SURFACE_LIGHT_LIMIT];   // FULL: metres; xyz from the eye, w = 1 / range^2
-uniform HALF vec4 light_color[SURFACE_LIGHT_LIMIT];      // rgb, w = spot cos_scale (0: point)
-uniform HALF vec4 light_direction[SURFACE_LIGHT_LIMIT];  // xyz unit, w = cos outer
+uniform FULL vec4 light_position[LIGHT_SLOTS];   // FULL: metres; xyz from the eye, w = 1 / range^2
+uniform HALF vec4 light_color[LIGHT_SLOTS];      // rgb, w = spot cos_scale (0: point)
+uniform HALF vec4 light_direction[LIGHT_SLOTS];  // xyz unit, w = cos outer
 uniform HALF vec4 light_count;                           // x
 #ifdef AREA_LIGHTS
-uniform FULL vec4 light_size[SURFACE_LIGHT_LIMIT];  // FULL: metres squared; x radius [m], y radius^2; 0: a point
+uniform FULL vec4 light_size[LIGHT_SLOTS];  // FULL: metres squared; x radius [m], y radius^2; 0: a point
 #endif
 #endif
 #endif
@@ -132,8 +133,10 @@ void main() {
 #ifdef TIER_LOW
     light += albedo * vertex_light;
 #else
-    for (int i = 0; i < SURFACE_LIGHT_LIMIT; i++) {
+    for (int i = 0; i < LIGHT_SLOTS; i++) {
+#ifdef COUNTED_LIGHTS
         if (float(i) >= light_count.x) break;
+#endif
         FULL vec3 to_light = light_position[i].xyz + vertex_to_eye;
         FULL float distance_squared = dot(to_light, to_light);
         FULL vec3 l = to_light * inversesqrt(max(distance_squared, 1e-8));
@@ -141,9 +144,11 @@ void main() {
         distance_squared = max(distance_squared, light_size[i].y);  // inside the sphere it is as bright as on it
 #endif
         float falloff = distance_falloff(distance_squared, light_position[i].w);
+#ifdef SPOT_LIGHTS
         if (light_color[i].w > 0.0) {
             falloff *= cone_falloff(dot(-l, light_direction[i].xyz), light_direction[i].w, light_color[i].w);
         }
+#endif
 #ifdef AREA_LIGHTS
         light += sphere_light(albedo, specular, power, n, v, l, light_color[i].rgb * falloff,
                               light_size[i].x * inversesqrt(max(distance_squared, 1e-8)));

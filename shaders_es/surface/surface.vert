@@ -2,6 +2,7 @@
 // subtracts in double), so a scene 10 km from the origin shades as it does at the origin. Insertion point:
 //   surface.vertex  at [m] from the eye, n (the side that is seen where vertices are lit); lit surfaces only
 #include "surface/surface_limits.h"
+#include "surface/surface_lights.glsl"
 #include "common/maths.glsl"
 
 VERTEX_IN vec3 position;  // [m] local
@@ -30,23 +31,27 @@ VERTEX_OUT HALF vec4 vertex_color;
 #if defined(LOCAL_LIGHTS) && defined(TIER_LOW)
 // Low tier: local lights are diffuse and per vertex, so that the fragment stage stays inside 16 uniform vectors.
 #include "surface/surface.glsl"
-uniform highp vec4 light_position[SURFACE_LIGHT_LIMIT];   // xyz [m] from the eye, w = 1 / range^2
-uniform highp vec4 light_color[SURFACE_LIGHT_LIMIT];      // rgb, w = spot cos_scale (0: point)
-uniform highp vec4 light_direction[SURFACE_LIGHT_LIMIT];  // xyz unit, w = cos outer
+uniform highp vec4 light_position[LIGHT_SLOTS];   // xyz [m] from the eye, w = 1 / range^2
+uniform highp vec4 light_color[LIGHT_SLOTS];      // rgb, w = spot cos_scale (0: point)
+uniform highp vec4 light_direction[LIGHT_SLOTS];  // xyz unit, w = cos outer
 uniform highp vec4 light_count;                           // x
 VERTEX_OUT HALF vec3 vertex_light;
 
 vec3 local_light(vec3 at, vec3 n) {
     vec3 sum = vec3(0.0);
-    for (int i = 0; i < SURFACE_LIGHT_LIMIT; i++) {
+    for (int i = 0; i < LIGHT_SLOTS; i++) {
+#ifdef COUNTED_LIGHTS
         if (float(i) >= light_count.x) break;
+#endif
         vec3 to_light = light_position[i].xyz - at;
         float distance_squared = dot(to_light, to_light);
         vec3 l = to_light * inversesqrt(max(distance_squared, 1e-8));
         float falloff = distance_falloff(distance_squared, light_position[i].w);
+#ifdef SPOT_LIGHTS
         if (light_color[i].w > 0.0) {
             falloff *= cone_falloff(dot(-l, light_direction[i].xyz), light_direction[i].w, light_color[i].w);
         }
+#endif
         sum += light_color[i].rgb * (falloff * max(dot(n, l), 0.0));
     }
     return sum;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/effects/environment/environment_reference.h"
 #include "engine/effects/sky/sky_reference.h"
 #include "engine/effects/surface/surface_reference.h"
 #include "engine/effects/tone_map/tone_map_reference.h"
@@ -92,6 +93,19 @@ TEST(WrongFormula, GradientWithoutItsCube) {
         if (in(0) < 0.0) return reference::sky_gradient(in(0), in(1, s), in(2, s), in(3, s));
         return in(0) * in(1, s) + (1.0 - in(0)) * in(2, s);
     });
+}
+
+TEST(WrongFormula, EnvironmentWithATermLeftOutOrARootForgotten) {
+    expect_caught("irradiance", [](const Lane& in, std::size_t s) {
+        std::array<double, 9> terms{};
+        for (std::size_t i = 0; i < terms.size(); ++i) terms[i] = in(1 + i, s);
+        std::swap(terms[1], terms[2]);
+        return reference::irradiance({in(0, 0), in(0, 1), in(0, 2)}, terms);
+    });
+    expect_caught("reflection_level", [](const Lane& in, std::size_t) { return (1.0 - in(0)) * in(1); });
+    expect_caught("unpacked_rgbm", [](const Lane& in, std::size_t s) { return in(0, s) * in(0, 3) * in(1); });
+    expect_caught("mixed_reflection",
+                  [](const Lane& in, std::size_t s) { return in(0, s) + (in(2, s) - in(0, s)) * in(3); });
 }
 
 TEST(WrongFormula, FresnelWithAnotherPowerOrAnotherEnd) {

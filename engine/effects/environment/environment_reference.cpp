@@ -15,6 +15,12 @@ double irradiance(const std::array<double, 3>& normal, const std::array<double, 
     return std::max(sum, 0.0);
 }
 
+double reflection_level(double smoothness, double roughest) {
+    double whole = 0.0;
+    const double part = std::modf((1.0 - smoothness) * roughest, &whole);
+    return whole + 1.82 * part - 0.82 * part * part;
+}
+
 double rgbm_light(double channel, double alpha, double root_range) {
     return std::pow(channel * alpha * root_range, 2.0);
 }

@@ -15,7 +15,8 @@ namespace {
 
 constexpr std::string_view kDefines =
     "BASE_COLOR_MAP METALLIC_ROUGHNESS_MAP NORMAL_MAP EMISSIVE_MAP VERTEX_COLOR ALPHA_MASK ALPHA_BLEND DOUBLE_SIDED "
-    "SUN LOCAL_LIGHTS AREA_LIGHTS UNLIT POINTS SCENE_COLOR_PACKED";
+    "SUN LOCAL_LIGHTS ONE_LIGHT TWO_LIGHTS THREE_LIGHTS FOUR_LIGHTS SPOT_LIGHTS AREA_LIGHTS UNLIT POINTS "
+    "SCENE_COLOR_PACKED";
 constexpr std::array kShaders = {ShaderVariant{"surface/surface.vert", "surface/surface.frag", kDefines}};
 
 Demand called_for(const PlanContext& context) {

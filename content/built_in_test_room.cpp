@@ -19,6 +19,8 @@ constexpr float kHalfDepth = 2.0f;
 constexpr float kWallCell = 0.25f;
 // Walls reach this far behind each other [m]: their grids do not match, and a shared edge would leak single pixels.
 constexpr float kOverlap = 0.05f;
+// How thick the roof and the walls towards the sun are [m].
+constexpr float kThickness = 0.15f;
 // The opening in the wall at +X [m]: z from -0.8 to 0.8, y from 0.9 to 2.3.
 constexpr float kOpeningHalfWidth = 0.8f;
 constexpr float kOpeningBottom = 0.9f;
@@ -101,6 +103,23 @@ void add_opening_wall(Scene& scene, int plaster) {
                 at({kHalfWidth, middle, 0.0f}, -glm::half_pi<float>()));
 }
 
+/// The thickness of the roof and of the two walls that the sun stands on. A wall without one lets light past its edges:
+/// the filter of a shadow map is a few texels wide, and looks round every corner that is thinner.
+void add_outer_walls(Scene& scene, int plaster) {
+    const glm::vec3 low(-kHalfWidth - kThickness, -kThickness, -kHalfDepth - kThickness);
+    const glm::vec3 high(kHalfWidth + kThickness, kHeight + kThickness, kHalfDepth + kThickness);
+    const auto block = [&](const char* name, const glm::vec3& from, const glm::vec3& to) {
+        add_surface(scene, name, add_mesh(scene, box(to - from), name), plaster, at(0.5f * (from + to)));
+    };
+    const float x = kHalfWidth;
+    block("roof", {low.x, kHeight, low.z}, high);
+    block("outer front wall", {low.x, low.y, kHalfDepth}, {high.x, kHeight, high.z});
+    block("sill", {x, low.y, low.z}, {high.x, kOpeningBottom, kHalfDepth});
+    block("lintel", {x, kOpeningTop, low.z}, {high.x, kHeight, kHalfDepth});
+    block("jamb at the back", {x, kOpeningBottom, low.z}, {high.x, kOpeningTop, -kOpeningHalfWidth});
+    block("jamb at the front", {x, kOpeningBottom, kOpeningHalfWidth}, {high.x, kOpeningTop, kHalfDepth});
+}
+
 void add_walls(Scene& scene, int plaster) {
     const int long_wall =
         add_mesh(scene, quad({2.0f * (kHalfWidth + kOverlap), kHeight}, glm::vec2(1.0f), kWallCell), "long wall");
@@ -111,6 +130,7 @@ void add_walls(Scene& scene, int plaster) {
     add_surface(scene, "front wall", long_wall, plaster, at({0.0f, y, kHalfDepth}, glm::pi<float>()));
     add_surface(scene, "door wall", short_wall, plaster, at({-kHalfWidth, y, 0.0f}, glm::half_pi<float>()));
     add_opening_wall(scene, plaster);
+    add_outer_walls(scene, plaster);
 }
 
 void add_props(Scene& scene) {
@@ -125,6 +145,7 @@ void add_props(Scene& scene) {
                 at({-0.3f, 0.4f, -0.6f}));
     add_surface(scene, "blue ball", ball, add_material(scene, paint("blue lacquer", {0.06f, 0.13f, 0.42f}, 0.30f)),
                 at({0.9f, 0.4f, 0.3f}));
+    scene.surfaces.back().dynamic = true;  // it could roll: the low tier gives it a shadow of its own
     add_surface(scene, "crate", crate, add_material(scene, paint("red tarpaulin", {0.38f, 0.05f, 0.05f}, 0.75f)),
                 at({-1.7f, 0.35f, -1.2f}, 0.4f));
     add_surface(scene, "column", column, add_material(scene, paint("concrete", {0.24f, 0.25f, 0.28f}, 0.85f)),

@@ -24,6 +24,9 @@ constexpr auto kEffects = std::to_array<const EffectCard*>({
 #ifndef HALFFRAME_WITHOUT_TRANSPARENT
     &kTransparent,
 #endif
+#ifndef HALFFRAME_WITHOUT_SHADOW
+    &kShadow,  // after surface and transparent: it marks that their passes read its map
+#endif
 #ifndef HALFFRAME_WITHOUT_TONE_MAP
     &kToneMap,
 #endif

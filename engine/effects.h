@@ -10,6 +10,7 @@ extern const EffectCard kEnvironment;
 extern const EffectCard kSurface;
 extern const EffectCard kSky;
 extern const EffectCard kTransparent;
+extern const EffectCard kShadow;
 extern const EffectCard kToneMap;
 
 }  // namespace halfframe

@@ -11,6 +11,8 @@ namespace halfframe {
 
 void EffectWork::draw(Renderer&, const View&, int) { throw Mistake("an effect without passes was asked to draw one"); }
 
+bool EffectWork::still_holds(const Renderer&, const View&, int) const { return false; }
+
 int EffectWork::adopt(Renderer&, gl::Program&) { return -1; }
 
 void EffectWork::feed(Renderer&, const View&, int) {}

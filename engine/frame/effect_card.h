@@ -65,6 +65,9 @@ public:
     virtual ~EffectWork() = default;
     /// Draws pass `phase` of this effect; targets, viewport and start actions are set already.
     virtual void draw(Renderer& renderer, const View& view, int phase);
+    /// True while what an earlier frame drew in pass `phase` is right for `view` too: the frame leaves the pass out,
+    /// its clears included. Only for a pass whose targets no other pass writes.
+    [[nodiscard]] virtual bool still_holds(const Renderer& renderer, const View& view, int phase) const;
     /// `program` of another effect holds insertions of this one: claims their uniforms and gives their samplers texture
     /// units. The number returned comes back in feed(). Runs while preparing; `program` is current.
     virtual int adopt(Renderer& renderer, gl::Program& program);

@@ -74,7 +74,8 @@ public:
     /// Throws Error(context) when the context was lost.
     void draw(const View& view);
 
-    /// Draws one frame with a timer round every pass; samples() of `timer` then hold one more value for each.
+    /// Draws one frame with a timer round every pass; samples() of `timer` then hold one more value for each. Passes
+    /// that still hold are drawn all the same.
     void draw_timed(const View& view, PassTimer& timer);
 
     [[nodiscard]] Picture read_display();                      ///< the plan's display target

@@ -8,5 +8,6 @@
 layout(location = 0) out HALF vec4 fragment_color;
 #endif
 #define sample_2d(image, at) texture(image, at)
+#define sample_compared(image, at) texture(image, at)
 #define sample_cube(image, toward) texture(image, toward)
 #define sample_cube_lod(image, toward, lod) textureLod(image, toward, lod)

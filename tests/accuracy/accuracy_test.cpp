@@ -128,6 +128,14 @@ TEST(WrongFormula, LobeOfAnotherPower) {
     });
 }
 
+TEST(WrongFormula, LiftByTheCosineShareOfThreeTapsAndBlobWithoutItsSquare) {
+    expect_caught("shadow_lift", [](const Lane& in, std::size_t s) { return in(0, s) * in(2) * in(0, 1); });
+    expect_caught("lit_share", [](const Lane& in, std::size_t) { return (in(0, 0) + in(0, 1) + in(0, 2)) / 3.0; });
+    expect_caught("blob_shade", [](const Lane& in, std::size_t) {
+        return 1.0 - in(1) * std::max(1.0 - in(0, 0) * in(0, 0) - in(0, 1) * in(0, 1), 0.0);
+    });
+}
+
 TEST(WrongFormula, FalloffWithoutItsWindowAndConeWithoutItsSmoothStep) {
     expect_caught("distance_falloff", [](const Lane& in, std::size_t) { return 1.0 / std::max(in(0), 1e-5 / in(1)); });
     expect_caught("cone_falloff",

@@ -1,0 +1,142 @@
+// Draws the sun's map and feeds its readers.
+#include "engine/effects/shadow/shadow_map.h"
+
+#include <algorithm>
+
+#include "engine/effects/shadow/shadow.h"
+#include "engine/frame/camera_space.h"
+#include "shaders_es/shadow/shadow_limits.h"
+
+namespace halfframe {
+
+namespace {
+
+// The lift along the normal (shadow.glsl) covers the filter on every plane. What is left is that a texel holds the
+// depth of its centre, half a texel away, hence 1 times the slope; and two steps of the depth buffer for its rounding.
+constexpr float kSlopeOffset = 1.0f;
+constexpr float kStepOffset = 2.0f;
+
+const Surface& surface_of(const Renderer& renderer, const ShadowBody& body) {
+    return renderer.scene().surfaces[static_cast<std::size_t>(body.surface)];
+}
+
+}  // namespace
+
+ShadowMap::ShadowMap(Renderer& renderer) {
+    const bool reference = renderer.tier_of(kShadow.name) == Tier::reference;
+    map_texels_ = reference ? SHADOW_MAP_SIZE_REFERENCE : SHADOW_MAP_SIZE_CONSOLE;
+    reach_texels_ = static_cast<float>(reference ? SHADOW_REACH_REFERENCE : SHADOW_REACH_CONSOLE);
+    target_ = renderer.plan().target_index("shadow_map");
+    const Scene& scene = renderer.scene();
+    for (std::size_t i = 0; i < scene.surfaces.size(); ++i) {
+        const ShadowBody body = shadow_body(scene, static_cast<int>(i), renderer.mesh(scene.surfaces[i].mesh).box);
+        if (!body.casts && !body.receives) continue;
+        bodies_.push_back(body);
+        if (body.casts) add_caster(renderer, static_cast<int>(bodies_.size()) - 1);
+    }
+    std::ranges::stable_sort(casters_, {}, &Caster::variant);  // fewest changes of program
+}
+
+int ShadowMap::variant_of(Renderer& renderer, const std::vector<std::string_view>& defines) {
+    gl::Program& program = renderer.program(kShadow, 0, defines);
+    const auto known = std::ranges::find(variants_, &program, &Variant::program);
+    if (known != variants_.end()) return static_cast<int>(known - variants_.begin());
+    renderer.use(program);
+    if (const int map = program.uniform_if_used("base_color_map"); map >= 0)
+        renderer.gl().Uniform1i(map, kBaseColorUnit);
+    variants_.push_back({&program, program.uniform("clip_from_local"), program.uniform_if_used("mask")});
+    program.expect_all_uniforms_claimed();
+    return static_cast<int>(variants_.size()) - 1;
+}
+
+void ShadowMap::add_caster(Renderer& renderer, int body) {
+    const Surface& surface = surface_of(renderer, bodies_[static_cast<std::size_t>(body)]);
+    const Material& material = renderer.scene().materials[static_cast<std::size_t>(surface.material)];
+    Caster caster;
+    caster.body = body;
+    std::vector<std::string_view> defines;
+    if (material.alpha_mode == AlphaMode::mask) {
+        defines.push_back("ALPHA_MASK");
+        caster.mask = {material.base_color.a, material.alpha_cutoff, 0.0f, 0.0f};
+        if (renderer.mesh(surface.mesh).has_colors) defines.push_back("VERTEX_COLOR");
+        if (material.base_color_texture) {
+            defines.push_back("BASE_COLOR_MAP");
+            // Decoded as surface has it, so that the device holds it once.
+            caster.texture = renderer.texture(material.base_color_texture, renderer.caps().srgb_textures);
+        }
+    }
+    caster.variant = variant_of(renderer, defines);
+    casters_.push_back(caster);
+}
+
+std::optional<ShadowFit> ShadowMap::fit(const Renderer& renderer, const View& view) const {
+    const Light* sun = shining_sun(renderer.scene());
+    if (sun == nullptr) return std::nullopt;  // put out since the plan was made, or switched on by hand
+    return fit_shadow(renderer.scene(), bodies_, sun->direction, view);
+}
+
+bool ShadowMap::still_holds(const Renderer& renderer, const View& view, int) const {
+    if (!drawn_ || fit(renderer, view) != drawn_fit_) return false;
+    return std::ranges::all_of(casters_, [&](const Caster& caster) {
+        return surface_of(renderer, bodies_[static_cast<std::size_t>(caster.body)]).world_from_local == caster.drawn_at;
+    });
+}
+
+void ShadowMap::draw(Renderer& renderer, const View& view, int) {
+    drawn_fit_ = fit(renderer, view);
+    drawn_ = true;
+    for (Caster& caster : casters_)
+        caster.drawn_at = surface_of(renderer, bodies_[static_cast<std::size_t>(caster.body)]).world_from_local;
+    if (drawn_fit_) draw_casters(renderer);
+}
+
+void ShadowMap::draw_casters(Renderer& renderer) {
+    gl::EntryPoints& gl = renderer.gl();
+    const int drawn_texels = map_texels_ - 2 * SHADOW_MAP_RIM;
+    gl.Viewport(SHADOW_MAP_RIM, SHADOW_MAP_RIM, drawn_texels, drawn_texels);
+    renderer.set_depth(true, true, GL_LEQUAL);
+    renderer.set_blend(Blend::none);
+    // A wall seen from outside stops the sun too, though its front looks into the room.
+    renderer.set_cull(false);
+    gl.Enable(GL_POLYGON_OFFSET_FILL);
+    gl.PolygonOffset(kSlopeOffset, kStepOffset);
+    for (const Caster& caster : casters_) {
+        const ShadowBody& body = bodies_[static_cast<std::size_t>(caster.body)];
+        const glm::mat4 matrix = shadow_clip_from_local(*drawn_fit_, caster.drawn_at);
+        if (outside_view(body.local, matrix)) continue;
+        const Variant& variant = variants_[static_cast<std::size_t>(caster.variant)];
+        renderer.use(*variant.program);
+        gl.UniformMatrix4fv(variant.clip_from_local, 1, GL_FALSE, &matrix[0][0]);
+        if (variant.mask >= 0) gl.Uniform4fv(variant.mask, 1, &caster.mask.x);
+        if (caster.texture != 0) renderer.bind_texture(kBaseColorUnit, caster.texture);
+        renderer.draw_mesh(renderer.mesh(surface_of(renderer, body).mesh));
+    }
+    gl.PolygonOffset(0.0f, 0.0f);
+    gl.Disable(GL_POLYGON_OFFSET_FILL);
+}
+
+int ShadowMap::adopt(Renderer& renderer, gl::Program& program) {
+    const Receiver receiver{program.uniform_if_used("shadow_from_eye"), program.uniform_if_used("shadow_toward")};
+    const int map = program.uniform_if_used("shadow_map");
+    if (map < 0) return -1;  // a variant that no sun lights
+    renderer.gl().Uniform1i(map, kShadowUnit);
+    receivers_.push_back(receiver);
+    return static_cast<int>(receivers_.size()) - 1;
+}
+
+void ShadowMap::feed(Renderer& renderer, const View& view, int adopted) {
+    const Receiver& receiver = receivers_[static_cast<std::size_t>(adopted)];
+    glm::mat4 from_eye(0.0f);  // without a map everything is nearest to the sun: lit
+    glm::vec4 toward(0.0f);
+    if (drawn_fit_) {
+        from_eye = shadow_from_eye(*drawn_fit_, view.eye, map_texels_);
+        const glm::dvec3 along = glm::transpose(drawn_fit_->light_from_world)[2];
+        toward =
+            glm::vec4(glm::vec3(-along), reach_texels_ * static_cast<float>(shadow_texel_m(*drawn_fit_, map_texels_)));
+    }
+    if (receiver.from_eye >= 0) renderer.gl().UniformMatrix4fv(receiver.from_eye, 1, GL_FALSE, &from_eye[0][0]);
+    if (receiver.toward >= 0) renderer.gl().Uniform4fv(receiver.toward, 1, &toward.x);
+    renderer.bind_texture(kShadowUnit, renderer.target_texture(target_));
+}
+
+}  // namespace halfframe

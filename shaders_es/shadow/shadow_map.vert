@@ -1,0 +1,25 @@
+// Draws a caster into the sun's map.
+VERTEX_IN vec3 position;  // [m] local
+uniform highp mat4 clip_from_local;
+#ifdef ALPHA_MASK
+#ifdef BASE_COLOR_MAP
+VERTEX_IN vec2 uv;
+VERTEX_OUT FULL vec2 vertex_uv;  // FULL: as in surface.vert
+#endif
+#ifdef VERTEX_COLOR
+VERTEX_IN vec4 color;
+VERTEX_OUT HALF float vertex_alpha;
+#endif
+#endif
+
+void main() {
+    gl_Position = clip_from_local * vec4(position, 1.0);
+#ifdef ALPHA_MASK
+#ifdef BASE_COLOR_MAP
+    vertex_uv = uv;
+#endif
+#ifdef VERTEX_COLOR
+    vertex_alpha = color.a;
+#endif
+#endif
+}

@@ -1,0 +1,13 @@
+// Inserted into vertex shaders of surfaces: where a vertex is in the sun's map.
+#include "shadow/shadow.glsl"
+
+uniform highp mat4 shadow_from_eye;  // from metres (world axes, origin at the eye) to the map, 0..1 in all three
+uniform highp vec4 shadow_toward;    // xyz unit, towards the sun; w radius of the filter [m]
+VERTEX_OUT FULL vec3 shadow_at;      // FULL: a 1024th is past half's 11 bits as soon as it is filtered
+
+vec3 placed_in_shadow(vec3 at, vec3 n) {
+#ifdef DOUBLE_SIDED
+    n = dot(n, shadow_toward.xyz) < 0.0 ? -n : n;  // the side that the sun lights is the side to step off to
+#endif
+    return (shadow_from_eye * vec4(at + shadow_lift(n, shadow_toward.xyz, shadow_toward.w), 1.0)).xyz;
+}

@@ -3,9 +3,9 @@
 
 // How far a point moves off its surface before it is looked up [m], along the normal n: with `reach_m`, the radius of the
 // filter in metres, a plane never shadows itself whatever its slope (its depth over the filter changes by
-// reach * tan(angle); the step gains reach * sin(angle) / cos(angle)). highp: metres, and 1 - cosine^2 near 0.
-highp vec3 shadow_lift(highp vec3 n, highp vec3 toward_sun, highp float reach_m) {
-    highp float cosine = dot(n, toward_sun);
+// reach * tan(angle); the step gains reach * sin(angle) / cos(angle)). FULL: metres, and 1 - cosine^2 near 0.
+FULL vec3 shadow_lift(FULL vec3 n, FULL vec3 toward_sun, FULL float reach_m) {
+    FULL float cosine = dot(n, toward_sun);
     return n * (reach_m * sqrt(max(1.0 - cosine * cosine, 0.0)));
 }
 

@@ -1,6 +1,7 @@
 // Numbers that the shadow's shaders and C++ share.
 
-/* Side of the map [texels]. 1024 at 16 bits is 2 MiB, the console's share; 2048 is what every ES 3.0 device has. */
+/* Side of the map [texels]. 1024 at 16 bits is 2 MiB, the console's share; 2048 (8 MiB) is what every
+   ES 3.0 device has, and leaves a 1280x720 frame of float targets inside 32 MiB. */
 #define SHADOW_MAP_SIZE_CONSOLE 1024
 #define SHADOW_MAP_SIZE_REFERENCE 2048
 
@@ -17,7 +18,7 @@
 #define SHADOW_TAP_NEAR 0.375
 #define SHADOW_TAP_FAR 1.125
 
-/* Reference: 6 x 6 taps one texel apart, on texels of half the size: the same softness in metres, 0.023 rms. */
+/* Reference: 6 x 6 taps one texel apart, on texels of half the size: the same softness in metres, 0.019 rms. */
 #define SHADOW_TAPS_REFERENCE 6
 
 /* How far from the looked-up point a compared texel may lie [texels]: the farthest tap and one texel of its filter. */

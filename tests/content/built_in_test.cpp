@@ -62,11 +62,11 @@ TEST(BuiltIn, TheRoomHasOneOfEverything) {
     const Scene room = content::open_scene("test_room");
     const Box box = world_box(room);
     // 1e-5: quarter turns by float sines.
-    EXPECT_NEAR(box.low.x, -3.05f, 1e-5);  // walls reach 5 cm behind each other
-    EXPECT_NEAR(box.high.x, 3.05f, 1e-5);
-    EXPECT_NEAR(box.low.y, 0.0f, 1e-5);
-    EXPECT_NEAR(box.high.y, 3.0f, 1e-5);
-    EXPECT_NEAR(box.high.z, 2.05f, 1e-5);
+    EXPECT_NEAR(box.low.x, -3.15f, 1e-5);  // roof and walls towards the sun are 15 cm thick
+    EXPECT_NEAR(box.high.x, 3.15f, 1e-5);
+    EXPECT_NEAR(box.low.y, -0.15f, 1e-5);
+    EXPECT_NEAR(box.high.y, 3.15f, 1e-5);
+    EXPECT_NEAR(box.high.z, 2.15f, 1e-5);
     int kinds[3] = {};
     for (const Light& light : room.lights) {
         ++kinds[static_cast<int>(light.kind)];

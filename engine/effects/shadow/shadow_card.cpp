@@ -69,14 +69,14 @@ Demand called_for(const PlanContext& context) {
 void add_map(const PlanContext& context, FramePlan& plan) {
     const bool reference = context.tier == Tier::reference;
     const int side = reference ? SHADOW_MAP_SIZE_REFERENCE : SHADOW_MAP_SIZE_CONSOLE;
-    const bool fine = reference && context.caps.renders[static_cast<std::size_t>(gl::PixelFormat::depth24)];
-    const int map = plan.add_target({.name = "shadow_map",
-                                     .format = fine ? gl::PixelFormat::depth24 : gl::PixelFormat::depth16,
-                                     .width = side,
-                                     .height = side,
-                                     .fixed_size = true,
-                                     .filtered = true,
-                                     .compared = true});
+    const int map = plan.add_target(
+        {.name = "shadow_map",
+         .format = gl::PixelFormat::depth16,  // a step: a 32nd of a texel, or less, in a fit as deep as wide
+         .width = side,
+         .height = side,
+         .fixed_size = true,
+         .filtered = true,
+         .compared = true});
     for (Pass& pass : plan.passes) {
         if (pass.effect == "surface" || pass.effect == "transparent") pass.reads.push_back(map);
     }
@@ -138,7 +138,7 @@ const EffectCard kShadow{
                        "a soft dark blob on level ground under each dynamic surface; static ones cast nothing"},
               TierCard{kMapShaders, "shadow_map of 1024 texels, 16 bits",
                        "one map, edges 3 texels soft; translucents cast nothing"},
-              TierCard{kMapShaders, "shadow_map of 2048 texels, 24 bits",
+              TierCard{kMapShaders, "shadow_map of 2048 texels, 16 bits",
                        "as soft as console in half the texels, without its steps"}},
     .called_for = called_for,
     .add_passes = add_passes,

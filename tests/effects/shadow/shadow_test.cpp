@@ -69,7 +69,7 @@ TEST_F(Shadow, BeginsAtTheFoot) {
                         glm::vec3(0.0f, 1.0f, 0.0f));
         return made;
     }();
-    Camera camera = camera_looking({-0.5f, 4.0f, 0.0f}, {-0.5f, 0.0f, 0.0f}, 0.3f,
+    Camera camera = camera_looking({-0.5f, 4.0f, 0.0f}, {-0.5f, 0.0f, 0.0f}, 0.05f,
                                    Box{glm::vec3(-2.0f, 0.0f, -2.0f), glm::vec3(2.0f, 1.0f, 2.0f)});
     const View view = view_of(camera, 256, 64);
     const TracedScene traced = traced_scene(scene, scene.lights[0].direction);
@@ -86,9 +86,10 @@ TEST_F(Shadow, BeginsAtTheFoot) {
             if (drawn.at(x, 32) > 0.01) farthest_light = std::max(farthest_light, from_foot);
         }
         EXPECT_GT(looked_at, 20);
-        // The filter and the step reach 2.5 texels each (5 at reference), over the sine of the sun's elevation.
-        EXPECT_LT(farthest_light, (tier == Tier::reference ? 10.0 : 5.0) * 1.42 * texel) << name(tier);
-        std::printf("MEASURE foot %s %.2f\n", name(tier), farthest_light / texel);
+        // Light creeps under a wall by what the filter sees beside its foot: 2.0 texels found at console, 1.3 at
+        // reference, whose pixels here are as wide.
+        EXPECT_LT(farthest_light, (tier == Tier::reference ? 3.0 : 4.0) * texel) << name(tier);
+        EXPECT_LT(texel, 0.005) << "a pixel is 3 mm: texels must be seen";
     }
 }
 

@@ -17,7 +17,7 @@ constexpr float kStrength = 0.7f;    ///< of an object that touches the ground; 
 constexpr float kSpread = 1.3f;       ///< radius over the object's half width: the dark outgrows what throws it
 constexpr float kFadeHeights = 2.0f;  ///< gone at this height above ground, in half widths of the object
 constexpr float kSunk = 0.05f;        ///< share of its height that an object may stand inside its ground
-// One depth step and one slope towards the eye: the blob lies in the ground's own plane and has other triangles.
+// One slope and four depth steps towards the eye: the blob lies in the ground's own plane and has other triangles.
 constexpr float kSlopeOffset = -1.0f;
 constexpr float kStepOffset = -4.0f;
 

@@ -12,5 +12,6 @@ extern const EffectCard kSky;
 extern const EffectCard kTransparent;
 extern const EffectCard kShadow;
 extern const EffectCard kToneMap;
+extern const EffectCard kAntiAlias;
 
 }  // namespace halfframe

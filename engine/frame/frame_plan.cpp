@@ -298,6 +298,27 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Wishes& wishes,
 
 namespace {
 
+std::optional<std::string> broken_samples_rule(const FramePlan& plan, const Pass& pass,
+                                               const std::vector<bool>& written) {
+    const auto target = [&](int index) -> const Target& { return plan.targets[static_cast<std::size_t>(index)]; };
+    for (const int read : pass.reads) {
+        if (target(read).samples > 1)
+            return fmt::format("pass {} samples {}, which is not resolved", pass.name, target(read).name);
+    }
+    if (pass.color && pass.depth && target(*pass.color).samples != target(*pass.depth).samples) {
+        return fmt::format("pass {} draws into {} and {}, which differ in samples", pass.name, target(*pass.color).name,
+                           target(*pass.depth).name);
+    }
+    if (!pass.resolves) return std::nullopt;
+    const Target& from = target(*pass.resolves);
+    if (!written[static_cast<std::size_t>(*pass.resolves)])
+        return fmt::format("pass {} resolves {} before any pass has written it", pass.name, from.name);
+    const bool fits = pass.color && target(*pass.color).samples == 1 && target(*pass.color).format == from.format &&
+                      target(*pass.color).width == from.width && target(*pass.color).height == from.height;
+    if (!fits) return fmt::format("pass {} resolves {} into a target that is not like it", pass.name, from.name);
+    return std::nullopt;
+}
+
 std::optional<std::string> broken_pass_rule(const FramePlan& plan, const Pass& pass, std::vector<bool>& written) {
     for (const int read : pass.reads) {
         const std::string& target = plan.targets[static_cast<std::size_t>(read)].name;
@@ -308,6 +329,7 @@ std::optional<std::string> broken_pass_rule(const FramePlan& plan, const Pass& p
             return fmt::format("pass {} samples {} while it is bound as its own target", pass.name, target);
         }
     }
+    if (auto broken = broken_samples_rule(plan, pass, written)) return broken;
     for (const auto& [target, start] :
          {std::pair{pass.color, pass.start_color}, std::pair{pass.depth, pass.start_depth}}) {
         if (!target) continue;
@@ -329,7 +351,11 @@ std::optional<std::string> broken_rule(const FramePlan& plan, const gl::Caps& ca
             return fmt::format("target {} is {}, which {} does not render", target.name, name(target.format),
                                caps.device);
         }
-        const bool in_renderbuffer = gl::is_depth(target.format) && !target.compared;
+        if (target.samples > 1 && target.samples > caps.samples[static_cast<std::size_t>(target.format)]) {
+            return fmt::format("target {} has {} samples a pixel, which {} does not give {}", target.name,
+                               target.samples, caps.device, name(target.format));
+        }
+        const bool in_renderbuffer = (gl::is_depth(target.format) || target.samples > 1) && !target.compared;
         const int limit = in_renderbuffer ? caps.max_renderbuffer_size : caps.max_texture_size;
         if (target.compared && (caps.es_version < 30 || !gl::is_depth(target.format)))
             return fmt::format("target {} is compared with, which needs a depth format and ES 3.0", target.name);

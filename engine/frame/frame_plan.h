@@ -32,27 +32,29 @@ struct Target {
     int height = 0;
     bool fixed_size = false;  ///< its size does not follow the picture's (a shadow map): not among the bytes a pixel
     bool filtered = false;    ///< sampled with linear filtering; else nearest
+    int samples = 1;          ///< a pixel; above 1 it is resolved into another target before a pass samples it
     bool compared = false;    ///< depth only: a texture that later passes compare with (ES 3.0); else never sampled
     [[nodiscard]] std::size_t bytes() const {
         return static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
-               static_cast<std::size_t>(gl::bytes_per_pixel(format));
+               static_cast<std::size_t>(gl::bytes_per_pixel(format) * samples);
     }
 };
 
 enum class StartAction : std::uint8_t { keep, clear, discard };
 
 /// Where in the frame a pass stands. Effects choose a place; passes of one place keep the order of the list of effects.
-enum class PassOrder : std::uint8_t { shadow, depth, opaque, sky, ground, transparent, post, display, finish };
+enum class PassOrder : std::uint8_t { shadow, depth, opaque, sky, ground, transparent, resolve, post, display, finish };
 
 struct Pass {
     std::string name;    ///< "surface"; also the ledger's and the debugger's name
     std::string effect;  ///< the card that draws it
     int phase = 0;       ///< told to the effect: which of its passes
     PassOrder order = PassOrder::opaque;
-    std::vector<int> reads;    ///< targets sampled
-    std::optional<int> color;  ///< target written
-    std::optional<int> depth;  ///< depth target bound
-    bool writes_color = true;  ///< false: bound and perhaps cleared, but masked
+    std::vector<int> reads;       ///< targets sampled
+    std::optional<int> resolves;  ///< multisampled target whose samples are averaged into `color`
+    std::optional<int> color;     ///< target written
+    std::optional<int> depth;     ///< depth target bound
+    bool writes_color = true;     ///< false: bound and perhaps cleared, but masked
     bool writes_depth = false;
     StartAction start_color = StartAction::keep;
     StartAction start_depth = StartAction::keep;

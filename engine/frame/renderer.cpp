@@ -149,11 +149,17 @@ gl::Texture make_compared_target(gl::EntryPoints& gl, const Target& target) {
     return texture;
 }
 
-gl::Renderbuffer make_depth_target(gl::EntryPoints& gl, const Target& target) {
+/// What no shader samples: depth, and what is resolved first.
+gl::Renderbuffer make_renderbuffer_target(gl::EntryPoints& gl, const Target& target) {
     gl::Renderbuffer renderbuffer = gl::create<gl::Kind::renderbuffer>(gl);
     gl.BindRenderbuffer(GL_RENDERBUFFER, renderbuffer.name());
     const auto format = gl::transfer_format(target.format, false);
-    gl.RenderbufferStorage(GL_RENDERBUFFER, format.internal_format, target.width, target.height);
+    if (target.samples > 1) {
+        gl.RenderbufferStorageMultisample(GL_RENDERBUFFER, target.samples, format.internal_format, target.width,
+                                          target.height);
+    } else {
+        gl.RenderbufferStorage(GL_RENDERBUFFER, format.internal_format, target.width, target.height);
+    }
     gl::label(gl, renderbuffer, target.name.c_str());
     return renderbuffer;
 }
@@ -205,12 +211,12 @@ void Renderer::prepare(const Scene& scene, const FramePlan& plan) {
 void Renderer::allocate_targets() {
     for (const Target& target : plan_.targets) {
         const bool depth = gl::is_depth(target.format);
-        const bool in_renderbuffer = depth && !target.compared;
+        const bool in_renderbuffer = (depth || target.samples > 1) && !target.compared;
         if (in_renderbuffer) targets_->textures.emplace_back();
         else
             targets_->textures.push_back(depth ? make_compared_target(gl_, target)
                                                : make_color_target(gl_, caps_, target));
-        targets_->renderbuffers.push_back(in_renderbuffer ? make_depth_target(gl_, target) : gl::Renderbuffer{});
+        targets_->renderbuffers.push_back(in_renderbuffer ? make_renderbuffer_target(gl_, target) : gl::Renderbuffer{});
         if (const std::uint32_t error = gl_.GetError(); error != GL_NO_ERROR)
             refuse_target(target.name, plan_, caps_, error_name(error));
     }
@@ -244,7 +250,12 @@ void Renderer::attach(const gl::Framebuffer& framebuffer, const Pass& pass) {
     gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
     std::string names;
     if (pass.color) {
-        gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target_texture(*pass.color), 0);
+        if (const auto& buffer = targets_->renderbuffers[static_cast<std::size_t>(*pass.color)]) {
+            gl_.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, buffer.name());
+        } else {
+            gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target_texture(*pass.color),
+                                     0);
+        }
         names = plan_.targets[static_cast<std::size_t>(*pass.color)].name;
     }
     if (pass.depth) {
@@ -397,6 +408,7 @@ Picture Renderer::read_display() {
 FloatPicture Renderer::read_target(int target_index) {
     const Target& target = plan_.targets.at(static_cast<std::size_t>(target_index));
     expect(!gl::is_depth(target.format), "a depth target cannot be read back as floats");
+    expect(target.samples == 1, "a multisampled target cannot be read back: read what it is resolved into");
     FloatPicture picture{.width = target.width, .height = target.height, .rgba = {}};
     const std::size_t row = static_cast<std::size_t>(target.width) * 4;
     const std::size_t count = row * static_cast<std::size_t>(target.height);
@@ -433,7 +445,8 @@ std::vector<CensusRow> Renderer::census() {
     expect(plan_.census, "census() needs a plan made with Wishes::census: an 8-bit target stores NaN as 0");
     std::vector<CensusRow> rows;
     for (std::size_t i = 0; i < plan_.targets.size(); ++i) {
-        if (gl::is_depth(plan_.targets[i].format)) continue;
+        // A NaN or an inf in one sample is one in the resolved target.
+        if (gl::is_depth(plan_.targets[i].format) || plan_.targets[i].samples > 1) continue;
         CensusRow row{.target = plan_.targets[i].name};
         for (const float value : read_target(static_cast<int>(i)).rgba) {
             ++row.values;
@@ -507,6 +520,12 @@ void Renderer::bind(std::uint32_t target, int unit, std::uint32_t texture) {
     if (state_->active_unit != unit) gl_.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
     state_->active_unit = unit;
     gl_.BindTexture(target, texture);
+}
+
+void Renderer::resolve(int from_target, int to_target) {
+    const Target& to = plan_.targets[static_cast<std::size_t>(to_target)];
+    gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, targets_->framebuffer_of_color(from_target));
+    gl_.BlitFramebuffer(0, 0, to.width, to.height, 0, 0, to.width, to.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
 void Renderer::draw_full_screen() {

@@ -113,6 +113,8 @@ public:
     void bind_texture(int unit, std::uint32_t texture);
     void bind_cube(int unit, std::uint32_t texture);
     [[nodiscard]] std::uint32_t target_texture(int target_index) const;
+    /// Averages the samples of a multisampled target into `to_target`, which the pass being drawn writes.
+    void resolve(int from_target, int to_target);
     void draw_full_screen();  ///< one triangle over the target; attribute kPosition is the clip position (vec2)
     void draw_mesh(const DrawMesh& mesh);
     void set_depth(bool test, bool write, std::uint32_t function);

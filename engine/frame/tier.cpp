@@ -28,7 +28,7 @@ double bytes_per_pixel_limit(Tier tier) {
         case Tier::low: return 12.0;      // RGBA8 + depth16 is 6; as much again for one shared helper
         case Tier::console: return 24.0;  // RGBA16F 8 + depth24 4 + display 4 = 16; 8 left for effects
         case Tier::reference:
-            return 64.0;  // RGBA32F 16 + depth24 4 + display 4 = 24; slow is allowed here, endless is not
+            return 128.0;  // 4 samples of RGBA32F 16 + depth24 4, resolved 16, display 4 = 100; 28 left for effects
     }
     throw Mistake("a tier without a limit");
 }

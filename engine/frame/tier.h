@@ -27,7 +27,7 @@ using gl::Arithmetic;
 
 /// Default limit on the bytes a pixel of all targets of a frame together, by tier. Ours: low is RGBA8 + 16-bit depth
 /// (6 B) with one more such target to spare; console is RGBA16F + depth + display with an auxiliary RGBA8; reference is
-/// RGBA32F + depth + display.
+/// RGBA32F + depth with 4 samples each, resolved colour, display.
 [[nodiscard]] double bytes_per_pixel_limit(Tier tier);
 
 }  // namespace halfframe

@@ -344,4 +344,14 @@ struct ArgumentRule<Call::RenderbufferStorage> {
     }
 };
 
+template <>
+struct ArgumentRule<Call::RenderbufferStorageMultisample> {
+    const Caps& caps;
+    std::string operator()(GLenum target, GLsizei samples, GLenum internal_format, GLsizei width,
+                           GLsizei height) const {
+        if (samples > caps.max_samples) return over_limit("samples", samples, "max_samples", caps.max_samples);
+        return ArgumentRule<Call::RenderbufferStorage>{caps}(target, internal_format, width, height);
+    }
+};
+
 }  // namespace halfframe::gl

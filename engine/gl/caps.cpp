@@ -215,6 +215,18 @@ void probe_formats(EntryPoints& gl, Caps& caps) {
     gl.ClearColor(0.0F, 0.0F, 0.0F, 0.0F);
 }
 
+/// The driver lists the numbers of samples from the most to the fewest; the first is asked for.
+void read_samples(EntryPoints& gl, Caps& caps) {
+    if (caps.es_version < 30 || !gl.loaded(number(Call::GetInternalformativ))) return;
+    for (std::size_t index = 0; index < caps.samples.size(); ++index) {
+        if (!caps.renders[index]) continue;
+        GLint most = 0;
+        gl.GetInternalformativ(GL_RENDERBUFFER, transfer_format(static_cast<PixelFormat>(index), false).internal_format,
+                               GL_SAMPLES, 1, &most);
+        if (gl.GetError() == GL_NO_ERROR) caps.samples[index] = std::min(most, caps.max_samples);
+    }
+}
+
 /// What a profile lets through: extensions and the abilities that hang on them.
 class Mask {
 public:
@@ -346,6 +358,8 @@ Caps read_caps(EntryPoints& gl) {
     read_abilities(gl, caps, version);
     forget_errors(gl);
     probe_formats(gl, caps);
+    read_samples(gl, caps);
+    forget_errors(gl);
     return caps;
 }
 
@@ -362,6 +376,9 @@ Caps masked(const Caps& caps, const DeviceProfile& profile) {
     mask_limits(poorer, mask, profile);
     mask_abilities(poorer, mask);
     mask_formats(poorer, mask, profile);
+    for (std::size_t index = 0; index < poorer.samples.size(); ++index) {
+        poorer.samples[index] = poorer.renders[index] ? std::min(poorer.samples[index], poorer.max_samples) : 0;
+    }
     return poorer;
 }
 

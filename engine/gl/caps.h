@@ -68,6 +68,8 @@ struct Caps {
 
     /// Which formats really render: each was drawn to and read back once when the caps were read.
     std::array<bool, kPixelFormatCount> renders{};
+    /// Most samples a pixel of a renderbuffer of that format may have; 0: the format is not multisampled here.
+    std::array<int, kPixelFormatCount> samples{};
 
     std::vector<std::string> extensions;  ///< sorted; what the mask lets through
 

@@ -74,6 +74,7 @@ struct FunctionEntry {
 // The parts of that list, in or out of the build.
 [[nodiscard]] std::vector<FunctionEntry> environment_functions();
 [[nodiscard]] std::vector<FunctionEntry> shadow_functions();
+[[nodiscard]] std::vector<FunctionEntry> anti_alias_functions();
 [[nodiscard]] std::vector<FunctionEntry> sky_functions();
 [[nodiscard]] std::vector<FunctionEntry> surface_functions();
 [[nodiscard]] std::vector<FunctionEntry> tone_map_functions();

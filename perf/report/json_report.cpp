@@ -38,6 +38,7 @@ Json pass_json(const FramePlan& plan, const Pass& pass) {
     for (const int target : pass.reads) {
         reads.push_back(plan.targets[static_cast<std::size_t>(target)].name);
     }
+    if (pass.resolves) reads.push_back(plan.targets[static_cast<std::size_t>(*pass.resolves)].name);
     return {{"name", pass.name},
             {"effect", pass.effect},
             {"reads", reads},
@@ -92,7 +93,8 @@ Json plan_json(const FramePlan& plan) {
                            {"format", gl::name(target.format)},
                            {"width", target.width},
                            {"height", target.height},
-                           {"bytes_per_pixel", gl::bytes_per_pixel(target.format)},
+                           {"bytes_per_pixel", gl::bytes_per_pixel(target.format) * target.samples},
+                           {"samples", target.samples},
                            {"bytes", target.bytes()}});
     }
     Json passes = Json::array();

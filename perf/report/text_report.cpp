@@ -57,7 +57,8 @@ int bytes_per_pixel_of(const FramePlan& plan, const Pass& pass) {
     int bytes = 0;
     for (const auto& target : {pass.color, pass.depth}) {
         if (target) {
-            bytes += gl::bytes_per_pixel(plan.targets[static_cast<std::size_t>(*target)].format);
+            bytes += gl::bytes_per_pixel(plan.targets[static_cast<std::size_t>(*target)].format) *
+                     plan.targets[static_cast<std::size_t>(*target)].samples;
         }
     }
     return bytes;
@@ -135,15 +136,18 @@ std::string plan_text(const FramePlan& plan) {
     std::string text = fmt::format("plan of {}: {}\n\n", plan.scene, configuration_text(plan));
     TextTable passes({{"pass"}, {"effect"}, {"reads"}, {"writes"}, {"start"}, {"formats"}, {"B/pixel", Align::right}});
     for (const Pass& pass : plan.passes) {
-        passes.add_row({pass.name, pass.effect, target_names(plan, pass.reads), writes_text(plan, pass),
-                        start_text(pass), formats_text(plan, pass), std::to_string(bytes_per_pixel_of(plan, pass))});
+        std::vector<int> reads = pass.reads;
+        if (pass.resolves) reads.push_back(*pass.resolves);
+        passes.add_row({pass.name, pass.effect, target_names(plan, reads), writes_text(plan, pass), start_text(pass),
+                        formats_text(plan, pass), std::to_string(bytes_per_pixel_of(plan, pass))});
     }
     text += passes.text() + "\n";
 
     TextTable targets({{"target"}, {"format"}, {"size"}, {"B/pixel", Align::right}, {"memory", Align::right}});
     for (const Target& target : plan.targets) {
         targets.add_row({target.name, gl::name(target.format), fmt::format("{}x{}", target.width, target.height),
-                         std::to_string(gl::bytes_per_pixel(target.format)), bytes_text(target.bytes())});
+                         std::to_string(gl::bytes_per_pixel(target.format) * target.samples),
+                         bytes_text(target.bytes())});
     }
     targets.add_rule();
     targets.add_row(

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/effects/environment/environment_reference.h"
+#include "engine/effects/anti_alias/anti_alias_reference.h"
 #include "engine/effects/sky/sky_reference.h"
 #include "engine/effects/surface/surface_reference.h"
 #include "engine/effects/tone_map/tone_map_reference.h"
@@ -86,6 +87,14 @@ TEST(WrongFormula, ToneMapWithoutItsScale) {
     });
     expect_caught("inverse_tone_map",
                   [](const Lane& in, std::size_t s) { return 0.22 * in(0, s) / (1.03 - in(0, s)); });
+}
+
+TEST(WrongFormula, EdgeShareThatReachesThePixelsBorderAndLumaOfAnotherGreen) {
+    expect_caught("edge_share",
+                  [](const Lane& in, std::size_t) { return std::max(0.5 - (in(0) - 0.5) / (in(0) + in(1)), 0.0); });
+    expect_caught("edge_luma", [](const Lane& in, std::size_t) {
+        return 0.2126 * in(0, 0) + 0.7152 * in(0, 1) + 0.0722 * in(0, 2);
+    });
 }
 
 TEST(WrongFormula, GradientWithoutItsCube) {

@@ -23,7 +23,7 @@ std::string refusal(const Scene& scene, const Wishes& wishes, const gl::Caps& ca
 
 TEST(Plan, DrawsLightThenMapsIt) {
     const FramePlan frame = plan(square_scene());
-    EXPECT_EQ(pass_names(frame), (Names{"surface", "tone_map"}));
+    EXPECT_EQ(pass_names(frame), (Names{"surface", "tone_map", "anti_alias"}));
     EXPECT_EQ(frame.storage, PixelFormat::rgba16f);
     EXPECT_EQ(frame.passes[0].start_color, StartAction::clear);
     EXPECT_EQ(frame.passes[0].start_depth, StartAction::clear);
@@ -38,7 +38,7 @@ TEST(Plan, PutsTheSkyBetweenOpaqueAndTransparent) {
     scene.materials.push_back({.alpha_mode = AlphaMode::blend});
     scene.surfaces.push_back(
         {.name = "pane", .mesh = 0, .material = 1, .world_from_local = glm::mat4(1.0f), .dynamic = false});
-    EXPECT_EQ(pass_names(plan(scene)), (Names{"surface", "sky", "transparent", "tone_map"}));
+    EXPECT_EQ(pass_names(plan(scene)), (Names{"surface", "sky", "transparent", "tone_map", "anti_alias"}));
     EXPECT_EQ(pass_names(plan(scene, {.tier = Tier::low})), (Names{"surface", "sky", "transparent"}));
 }
 

@@ -154,6 +154,24 @@ TEST(CapsMask, OnlyEverTakesAway) {
     EXPECT_TRUE(result.extensions.empty());
 }
 
+TEST(CapsMask, TakesSamplesWithTheFormatAndTheLimit) {
+    Caps rich;
+    rich.es_version = 30;
+    rich.max_samples = 8;
+    rich.renders.fill(true);
+    rich.samples.fill(8);
+    DeviceProfile profile;
+    profile.name = "four samples, no float targets";
+    profile.es_version = 30;
+    profile.max_samples = 4;
+    profile.extensions = std::vector<std::string>{};
+    const Caps poorer = masked(rich, profile);
+    EXPECT_EQ(poorer.samples[static_cast<std::size_t>(PixelFormat::rgba8)], 4);
+    EXPECT_EQ(poorer.samples[static_cast<std::size_t>(PixelFormat::rgba32f)], 0);
+    profile.es_version = 20;
+    for (const int samples : masked(rich, profile).samples) EXPECT_EQ(samples, 0) << "ES 2.0 resolves nothing";
+}
+
 TEST(CapsDesktop, RunsEsTextAndCountsSamples) {
     try {
         Ground ground({.backend = platform::Backend::egl, .api = platform::Api::desktop});

@@ -180,6 +180,19 @@ TEST_F(EntryPointsTest, AMaskRefusesWhatIsOverItsLimits) {
                    [&] { gl().FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0 + 1, GL_TEXTURE_2D, 0, 0); });
 }
 
+TEST_F(EntryPointsTest, AMaskRefusesMoreSamplesThanItsDeviceHas) {
+    DeviceProfile profile;
+    profile.name = "two samples";
+    profile.es_version = 30;
+    profile.max_samples = 2;
+    gl().restrict_to(masked(caps(), profile));
+    expect_refused("glRenderbufferStorageMultisample", "max_samples = 2",
+                   [&] { gl().RenderbufferStorageMultisample(GL_RENDERBUFFER, 4, GL_RGBA8, 4, 4); });
+    gl().restrict_to(masked(caps(), es2_minimum()));
+    expect_refused("glBlitFramebuffer", "ES 3.0",
+                   [&] { gl().BlitFramebuffer(0, 0, 1, 1, 0, 0, 1, 1, GL_COLOR_BUFFER_BIT, GL_NEAREST); });
+}
+
 TEST_F(EntryPointsTest, AMaskRefusesFormatsAndTypesThatCameLater) {
     gl().restrict_to(masked(caps(), es2_minimum()));
     const auto texture = [&](GLenum internal_format, GLenum format, GLenum type) {

@@ -66,9 +66,13 @@ TEST_F(ToneMap, AnInfiniteOrNegativeLightIsWhiteOrBlack) {
 
 TEST_F(ToneMap, IsAPassOnlyWhereLightIsStored) {
     const Scene scene = glowing(1.0f);
-    EXPECT_EQ(plan(scene, {.tier = Tier::console}).passes.back().name, "tone_map");
-    EXPECT_EQ(plan(scene, {.tier = Tier::low}).passes.back().name, "surface");
-    EXPECT_EQ(plan(scene, {.tier = Tier::console, .storage = gl::PixelFormat::rgba8}).passes.back().name, "surface");
+    const auto last_pass = [&](Wishes wishes) {
+        wishes.effect_switches = {{"anti_alias", false}};  // it may come after
+        return plan(scene, wishes).passes.back().name;
+    };
+    EXPECT_EQ(last_pass({.tier = Tier::console}), "tone_map");
+    EXPECT_EQ(last_pass({.tier = Tier::low}), "surface");
+    EXPECT_EQ(last_pass({.tier = Tier::console, .storage = gl::PixelFormat::rgba8}), "surface");
     EXPECT_FALSE(plan({.name = "nothing"}).find("tone_map")->in);
 }
 

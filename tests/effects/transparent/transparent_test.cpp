@@ -92,7 +92,7 @@ TEST(TransparentPlan, IsCalledForByBlendingAlone) {
     const FramePlan frame = plan(scene);
     EXPECT_TRUE(frame.find("transparent")->in);
     EXPECT_FALSE(frame.find("surface")->in) << "nothing is opaque";
-    EXPECT_EQ(pass_names(frame), (std::vector<std::string>{"transparent", "tone_map"}));
+    EXPECT_EQ(pass_names(frame), (std::vector<std::string>{"transparent", "tone_map", "anti_alias"}));
     EXPECT_EQ(broken_rule(frame, able_caps()), std::nullopt);
 }
 

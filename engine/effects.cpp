@@ -30,6 +30,9 @@ constexpr auto kEffects = std::to_array<const EffectCard*>({
 #ifndef HALFFRAME_WITHOUT_TONE_MAP
     &kToneMap,
 #endif
+#ifndef HALFFRAME_WITHOUT_BLOOM
+    &kBloom,  // after tone_map, whose pass reads the glow
+#endif
 #ifndef HALFFRAME_WITHOUT_ANTI_ALIAS
     &kAntiAlias,  // last: it gives others' passes another target
 #endif

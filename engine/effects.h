@@ -12,6 +12,7 @@ extern const EffectCard kSky;
 extern const EffectCard kTransparent;
 extern const EffectCard kShadow;
 extern const EffectCard kToneMap;
+extern const EffectCard kBloom;
 extern const EffectCard kAntiAlias;
 
 }  // namespace halfframe

@@ -588,6 +588,7 @@ void Renderer::set_blend(Blend blend) {
             gl_.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
             break;
         case Blend::add: gl_.BlendFuncSeparate(GL_ONE, GL_ONE, GL_ONE, GL_ONE); break;
+        case Blend::screen: gl_.BlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_COLOR, GL_ZERO, GL_ONE); break;
         case Blend::multiply: gl_.BlendFuncSeparate(GL_DST_COLOR, GL_ZERO, GL_ZERO, GL_ONE); break;
     }
 }

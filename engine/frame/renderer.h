@@ -41,6 +41,7 @@ enum class Blend : std::uint8_t {
     alpha,     ///< source alpha over destination
     add,       ///< source + destination
     multiply,  ///< source * destination
+    screen,    ///< source + destination * (1 - source), for display values
 };
 
 /// Texture units, told apart so that neighbours in a list of draws share bindings. 8 is the minimum of ES 2.0.

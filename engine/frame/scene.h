@@ -110,6 +110,11 @@ struct Sky {
     glm::vec3 ground{0.12f, 0.12f, 0.13f};
 };
 
+/// Glow round what is brighter than a light of 1 after exposure (the talk's display code 214).
+struct Bloom {
+    float strength = 0.25f;  ///< share of the light above 1 that is spread, 0..1; ours
+};
+
 /// Light from everywhere, prefiltered (content/environment makes it): radiance smoothed by cosine-power lobes for
 /// reflections, and spherical harmonics for the diffuse part. Linear, >= 0, world axes.
 struct EnvironmentMap {
@@ -138,6 +143,7 @@ struct Scene {
     std::vector<Camera> cameras;
     glm::vec3 ambient{0.0f};                    ///< constant radiance from everywhere, linear; added to `environment`
     std::optional<EnvironmentMap> environment;  ///< none: nothing to reflect but `ambient`
+    std::optional<Bloom> bloom;                 ///< none: as `Bloom{}` if something shines above 1 by itself
     std::optional<Sky> sky;                     ///< none: the background is `background`
     glm::vec3 background{0.12f, 0.13f, 0.15f};  ///< display value behind everything
     std::vector<std::string> notices;           ///< what the loader left out, one sentence each

@@ -75,6 +75,7 @@ struct FunctionEntry {
 [[nodiscard]] std::vector<FunctionEntry> environment_functions();
 [[nodiscard]] std::vector<FunctionEntry> shadow_functions();
 [[nodiscard]] std::vector<FunctionEntry> anti_alias_functions();
+[[nodiscard]] std::vector<FunctionEntry> bloom_functions();
 [[nodiscard]] std::vector<FunctionEntry> sky_functions();
 [[nodiscard]] std::vector<FunctionEntry> surface_functions();
 [[nodiscard]] std::vector<FunctionEntry> tone_map_functions();

@@ -16,7 +16,7 @@ namespace halfframe::cli {
 namespace {
 
 std::vector<std::string> setting_keys() {
-    std::vector<std::string> keys{"exposure", "ambient", "sky.zenith", "sky.horizon", "sky.ground"};
+    std::vector<std::string> keys{"exposure", "ambient", "sky.zenith", "sky.horizon", "sky.ground", "bloom.strength"};
     for (const EffectCard* card : all_effects()) {
         keys.push_back(std::string(card->name) + ".on");
     }
@@ -73,6 +73,11 @@ void apply(const Setting& setting, Scene& scene, View& view, Wishes& wishes) {
         }
     } else if (setting.key == "ambient") {
         scene.ambient = parse_color(setting);
+    } else if (setting.key == "bloom.strength") {
+        const float strength = parse_number(setting.value, "--set bloom.strength");
+        if (strength < 0.0f || strength > 1.0f)
+            throw Error(Fault::usage, fmt::format("--set bloom.strength={}: it is 0 to 1", setting.value));
+        scene.bloom = Bloom{.strength = strength};
     } else if (setting.key.starts_with("sky.") && setting.key != "sky.on") {
         const glm::vec3 color = parse_color(setting);
         if (glm::any(glm::greaterThan(color, glm::vec3(1.0f)))) {

@@ -10,6 +10,7 @@
 
 #include "engine/effects/environment/environment_reference.h"
 #include "engine/effects/anti_alias/anti_alias_reference.h"
+#include "engine/effects/bloom/bloom_reference.h"
 #include "engine/effects/sky/sky_reference.h"
 #include "engine/effects/surface/surface_reference.h"
 #include "engine/effects/tone_map/tone_map_reference.h"
@@ -87,6 +88,13 @@ TEST(WrongFormula, ToneMapWithoutItsScale) {
     });
     expect_caught("inverse_tone_map",
                   [](const Lane& in, std::size_t s) { return 0.22 * in(0, s) / (1.03 - in(0, s)); });
+}
+
+TEST(WrongFormula, BloomOfEachChannelByItselfAndABlurOfAnotherWidth) {
+    expect_caught("light_above_threshold",
+                  [](const Lane& in, std::size_t s) { return std::max(std::min(in(0, s), 8.0) - 1.0, 0.0); });
+    expect_caught("blur_weight", [](const Lane& in, std::size_t) { return reference::tap_weight(in(0), 8, 2.9); });
+    expect_caught("blur_pair_at", [](const Lane& in, std::size_t) { return in(0) + 0.5; });
 }
 
 TEST(WrongFormula, EdgeShareThatReachesThePixelsBorderAndLumaOfAnotherGreen) {

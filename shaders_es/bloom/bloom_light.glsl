@@ -1,0 +1,7 @@
+// What bloom adds to the light that tone_map maps.
+#include "bloom/bloom.glsl"
+
+uniform HALF sampler2D bloom;
+uniform FULL vec4 bloom_scale;  // xy: from the frame's uv to the glow's. FULL: it multiplies a uv. z strength
+
+vec3 bloom_light(FULL vec2 uv) { return bloom_of_stored(sample_2d(bloom, uv * bloom_scale.xy).rgb) * bloom_scale.z; }

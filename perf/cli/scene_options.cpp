@@ -209,8 +209,8 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
         .add_option(
             "--set", options.settings,
             "Change the scene; repeatable. exposure=N (above 0); ambient=R,G,B (linear light); sky.zenith=R,G,B, "
-            "sky.horizon=R,G,B, sky.ground=R,G,B (display values 0 to 1); EFFECT.on=0|1 (in or out, whatever "
-            "the scene calls for)")
+            "sky.horizon=R,G,B, sky.ground=R,G,B (display values 0 to 1); bloom.strength=N (0 to 1); "
+            "EFFECT.on=0|1 (in or out, whatever the scene calls for)")
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
 }

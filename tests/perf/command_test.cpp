@@ -73,6 +73,7 @@ TEST(Usage, wrong_values_are_2) {
         {{"render", "test_room", "--eye", "3e38,1,0", "--target", "0,1,0"}, "too far apart"},
         {{"render", "test_room", "--set", "tone_map.on=0", "--size", "8x8"}, "cannot be switched off"},
         {{"render", "test_room", "--set", "sky.zenith=2,0,0"}, "0 to 1"},
+        {{"render", "test_room", "--set", "bloom.strength=1.5"}, "0 to 1"},
         {{"render", "test_room", "-o", "one.png", "--trace", "one.png"}, "named twice"},
         {{"render", "test_room", "-o", "picture.jpg"}, ".png or .exr"},
         {{"render", "test_room", "--measure", "-1"}, "--measure"},

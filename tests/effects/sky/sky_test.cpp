@@ -15,6 +15,7 @@ protected:
         Scene scene;
         scene.name = "skies";
         scene.sky = Sky{.zenith = {0.2f, 0.3f, 0.9f}, .horizon = {0.8f, 0.6f, 0.4f}, .ground = {0.1f, 0.2f, 0.1f}};
+        scene.bloom = Bloom{.strength = 0.0f};  // the blue of the zenith is a light above 1: it would glow
         return scene;
     }
     static View looking(const glm::vec3& target) {

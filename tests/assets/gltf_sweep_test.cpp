@@ -123,6 +123,7 @@ void Sweep::draw_file(harness::Ground& ground, const Scene& scene, const std::st
         EXPECT_EQ(renderer->first_gl_error(), "") << key << ' ' << name(tier);
         const auto [inside, outside] = counted(picture, projected(box, view), background);
         EXPECT_GT(inside, 3) << key << " is blank at tier " << name(tier);
+        if (plan.find("bloom")->in) continue;  // a glow leaves the box on purpose
         EXPECT_EQ(outside, 0) << key << " draws outside its box at tier " << name(tier);
     }
 }

@@ -1,0 +1,12 @@
+// The least that draws a mesh: places a vertex. Belongs to perf/peers, which times what no shading can go below.
+VERTEX_IN vec3 position;  // [m] local
+VERTEX_IN vec2 uv;
+
+uniform highp mat4 clip_from_local;
+
+VERTEX_OUT FULL vec2 vertex_uv;
+
+void main() {
+    gl_Position = clip_from_local * vec4(position, 1.0);
+    vertex_uv = uv;
+}

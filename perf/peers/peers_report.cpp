@@ -94,6 +94,22 @@ std::string model_table(const Comparison& comparison) {
     return table.text();
 }
 
+/// Who is not about as bright as console+full, one line each: it was lit by something else. Floors are not lit.
+std::string brightness_notes(const Comparison& comparison) {
+    const Result* ours = find(comparison, kConsole);
+    std::string text;
+    for (const Result& result : comparison.results) {
+        const bool is_floor = result.contestant.ours && result.contestant.floor.empty();
+        if (ours == nullptr || is_floor || result.refused || result.ms.empty()) continue;
+        const double times = result.brightness / std::max(ours->brightness, 1e-3);
+        if (times > 0.6 && times < 1.6)
+            continue;  // tone curve against sRGB, one environment against its mean: 0.96..1.2
+        text += fmt::format("look: {} is {:.2f} times as bright as {}; see {}\n", result.contestant.name, times,
+                            kConsole, result.picture.string());
+    }
+    return text;
+}
+
 double noise(const Comparison& comparison) {
     return comparison.others_share.empty() ? 0.0 : spread(comparison.others_share).median;
 }
@@ -167,7 +183,7 @@ std::string text_report(const Setting& setting, const std::vector<Comparison>& c
                             comparison.model.name, comparison.model.what, comparison.triangles, comparison.surfaces,
                             100.0 * noise(comparison),
                             noise(comparison) > kQuietShare ? ": NOISY, measure again on a quiet machine" : "");
-        text += model_table(comparison);
+        text += model_table(comparison) + brightness_notes(comparison);
         for (const Result& result : comparison.results) {
             if (result.refused) text += fmt::format("refused: {}\n", *result.refused);
         }

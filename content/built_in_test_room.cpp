@@ -20,7 +20,10 @@ constexpr float kWallCell = 0.25f;
 // Walls reach this far behind each other [m]: their grids do not match, and a shared edge would leak single pixels.
 constexpr float kOverlap = 0.05f;
 // How thick the roof and the walls towards the sun are [m].
-constexpr float kThickness = 0.15f;
+constexpr float kThickness = 0.20f;
+// They begin this far behind what is seen of them [m]: two faces in one plane would fight for every pixel, and 16 bits
+// of depth tell 3 cm apart at the far end of the room when the near plane is at 2 cm.
+constexpr float kBehind = 0.06f;
 // The opening in the wall at +X [m]: z from -0.8 to 0.8, y from 0.9 to 2.3.
 constexpr float kOpeningHalfWidth = 0.8f;
 constexpr float kOpeningBottom = 0.9f;
@@ -111,13 +114,15 @@ void add_outer_walls(Scene& scene, int plaster) {
     const auto block = [&](const char* name, const glm::vec3& from, const glm::vec3& to) {
         add_surface(scene, name, add_mesh(scene, box(to - from), name), plaster, at(0.5f * (from + to)));
     };
-    const float x = kHalfWidth;
-    block("roof", {low.x, kHeight, low.z}, high);
-    block("outer front wall", {low.x, low.y, kHalfDepth}, {high.x, kHeight, high.z});
-    block("sill", {x, low.y, low.z}, {high.x, kOpeningBottom, kHalfDepth});
-    block("lintel", {x, kOpeningTop, low.z}, {high.x, kHeight, kHalfDepth});
+    const float x = kHalfWidth + kBehind;
+    const float y = kHeight + kBehind;
+    const float z = kHalfDepth + kBehind;
+    block("roof", {low.x, y, low.z}, high);
+    block("outer front wall", {low.x, low.y, z}, {high.x, y, high.z});
+    block("sill", {x, low.y, low.z}, {high.x, kOpeningBottom, z});
+    block("lintel", {x, kOpeningTop, low.z}, {high.x, y, z});
     block("jamb at the back", {x, kOpeningBottom, low.z}, {high.x, kOpeningTop, -kOpeningHalfWidth});
-    block("jamb at the front", {x, kOpeningBottom, kOpeningHalfWidth}, {high.x, kOpeningTop, kHalfDepth});
+    block("jamb at the front", {x, kOpeningBottom, kOpeningHalfWidth}, {high.x, kOpeningTop, z});
 }
 
 void add_walls(Scene& scene, int plaster) {
@@ -167,21 +172,21 @@ void add_lights(Scene& scene) {
     Light sun;
     sun.kind = LightKind::sun;
     sun.name = "sun";
-    sun.color = glm::vec3(0.75f, 0.72f, 0.68f);
+    sun.color = glm::vec3(1.10f, 1.05f, 0.98f);
     sun.direction = glm::normalize(glm::vec3(-0.80f, -0.55f, -0.22f));  // in through the opening
     scene.lights.push_back(sun);
 
     Light warm;
     warm.name = "warm lamp";
     warm.position = {-2.2f, 2.1f, 0.9f};
-    warm.color = glm::vec3(1.00f, 0.58f, 0.32f);
+    warm.color = glm::vec3(1.70f, 1.00f, 0.55f);
     warm.range_m = 5.0f;
     scene.lights.push_back(warm);
 
     Light cool;
     cool.name = "violet neon";
     cool.position = {1.2f, 2.3f, -1.45f};
-    cool.color = glm::vec3(0.50f, 0.42f, 1.30f);
+    cool.color = glm::vec3(0.75f, 0.66f, 1.75f);
     cool.range_m = 5.0f;
     scene.lights.push_back(cool);
 
@@ -196,7 +201,7 @@ void add_lights(Scene& scene) {
     spot.outer_cone_rad = 0.60f;
     scene.lights.push_back(spot);
 
-    scene.ambient = glm::vec3(0.050f, 0.058f, 0.075f);
+    scene.ambient = glm::vec3(0.085f, 0.095f, 0.120f);
     scene.sky = Sky{{0.30f, 0.36f, 0.46f}, {0.58f, 0.63f, 0.70f}, {0.20f, 0.21f, 0.23f}};
 }
 

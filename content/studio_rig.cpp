@@ -43,8 +43,17 @@ bool add_studio_rig(Scene& scene, std::optional<EnvironmentMap> environment) {
         point_at("studio fill", centre + left * away_m, glm::vec3(0.12f, 0.15f, 0.20f), away_m, 4.0f * away_m));
     scene.lights.push_back(
         point_at("studio rim", centre + behind * away_m, glm::vec3(0.20f, 0.15f, 0.21f), away_m, 4.0f * away_m));
-    if (environment) scene.environment = std::move(environment);
-    else scene.ambient = glm::vec3(0.045f, 0.05f, 0.06f);
+    if (!environment) {
+        scene.ambient = glm::vec3(0.045f, 0.05f, 0.06f);
+        return true;
+    }
+    // The studio's boxes are as bright as photographers like them; beside a sun and two points a third is enough.
+    constexpr float kShare = 0.3f;
+    for (auto& level : environment->levels) {
+        for (glm::vec3& texel : level) texel *= kShare;
+    }
+    for (glm::vec3& term : environment->irradiance) term *= kShare;
+    scene.environment = std::move(environment);
     return true;
 }
 

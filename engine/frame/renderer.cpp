@@ -1,4 +1,5 @@
-// Prepares and draws a plan.
+// Prepares, draws and reads back a plan; one file because all of it works on two private structs, the targets and the
+// state of GL, that nobody else may see.
 #include "engine/frame/renderer.h"
 
 #include <algorithm>

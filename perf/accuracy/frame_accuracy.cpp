@@ -97,6 +97,12 @@ FrameAccuracy FrameBench::measure(const FrameCase& pair, Tier tier, Arithmetic a
                         .relation = pair.relation,
                         .bound = bound_of(pair, tier, arithmetic)};
     Wishes wishes{.tier = tier, .arithmetic = arithmetic};
+    if (!pair.whole) {
+        for (const EffectCard* card : cards_) {
+            if (card->name == "shadow" || card->name == "bloom" || card->name == "anti_alias")
+                wishes.effect_switches.emplace_back(card->name, false);
+        }
+    }
     const Shot plain = pair.plain();
     Shot changed = pair.changed();
     found.plain = part_of(draw(plain, wishes), pair.plain_part);

@@ -60,11 +60,12 @@ Shot lamps_near_things() {
     return shot;
 }
 
-/// The room from its front side, with parallel rays, or from ten kilometres away with a lens as narrow as that needs.
-Shot room_from_the_front(bool orthographic) {
+/// The room from behind its back wall, which has no outside, with parallel rays, or from ten kilometres away with a
+/// lens as narrow as that needs.
+Shot room_from_the_back(bool orthographic) {
     constexpr float kHalfHeight = 1.7f;
     const float distance = orthographic ? 5.0f : 10000.0f;
-    Shot shot = room_from({0.4f, 1.5f, distance}, {0.4f, 1.5f, 0.0f}, 1.0f);
+    Shot shot = room_from({0.4f, 1.5f, -distance}, {0.4f, 1.5f, 0.0f}, 1.0f);
     shot.camera.orthographic = orthographic;
     shot.camera.half_height_m = kHalfHeight;
     shot.camera.fov_y_rad = 2.0f * std::atan(kHalfHeight / distance);
@@ -222,11 +223,13 @@ std::vector<FrameCase> eye_cases() {
     FrameCase parallel;
     parallel.kind = "eye";
     parallel.change = "parallel rays, against a lens 10 km away";
-    parallel.plain = [] { return room_from_the_front(false); };
-    parallel.changed = [] { return room_from_the_front(true); };
-    parallel.full = {2, 0.4,
-                     "rays differ by up to 2e-4; of a sky that lies between two codes a fifth turns: 1 / 0.196"};
-    parallel.half = {4, 0.1, "as in full: 2 / 0.047"};
+    parallel.plain = [] { return room_from_the_back(false); };
+    parallel.changed = [] { return room_from_the_back(true); };
+    parallel.full = {
+        54, 0.4,
+        "rays differ by up to 2e-4; of a sky that lies between two codes a fifth turns, and at silhouettes "
+        "a pixel changes hands: 27 / 0.196"};
+    parallel.half = {54, 0.1, "as in full: 27 / 0.047"};
     parallel.reference_half = {34, 0.1, kLengthOfNormal};
     list.push_back(parallel);
     return list;
@@ -254,6 +257,34 @@ std::vector<FrameCase> shape_cases() {
     return list;
 }
 
+/// Everything on: the grids of the shadow map and of the filters are in these bounds.
+std::vector<FrameCase> whole_cases() {
+    std::vector<FrameCase> list;
+    const auto add = [&](const char* change, const std::function<Shot()>& changed, const FrameBound& bound) {
+        FrameCase made;
+        made.kind = "whole";
+        made.change = change;
+        made.plain = room;
+        made.changed = changed;
+        made.whole = true;
+        made.full = made.half = bound;
+        list.push_back(made);
+    };
+    const auto away = [](const Units& units) {
+        return [=] { return moved(in_units(room(), units.per_metre), offset(units, 10.0)); };
+    };
+    add("10 km away, in cm, with every effect", away(kCentimetres),
+        {62, 0.05, "edges of the sun's patch fall on other texels of the map, and half turns codes: 31 / 0.024"});
+    add("10 km away, in m, with every effect", away(kMetres),
+        {172, 0.14, "places keep steps of 0.5 mm, and shadows fall on other texels: 86 / 0.067"});
+    add("lengths in mm, with every effect", in(kMillimetres, room), {62, 0.05, "as 10 km away in cm: 31 / 0.021"});
+    add("turned by 90 degrees, with every effect", [] { return turned(room(), 1); },
+        {24, 0.04, "the map turns with its sun; the reference tier in half as without shadows: 12 / 0.020"});
+    add("lights in the opposite order, with every effect", [] { return with_lights_reversed(room()); }, {});
+    add("all light times 10^4, exposure 10^-4, with every effect", [] { return exposed_for(room(), 1e4f); }, {});
+    return list;
+}
+
 std::vector<FrameCase> size_cases() {
     const auto sized = [](int width, int height, float fov_y_rad) {
         return [=] {
@@ -275,6 +306,7 @@ std::vector<FrameCase> size_cases() {
     wide.plain = sized(64, 64, 0.03f);
     wide.changed = sized(4096, 64, 0.03f);
     wide.changed_part = Part{.x = 2016, .y = 0, .width = 64, .height = 64};
+    wide.full = wide.half = {2, 5e-4, "a pixel's place is a sum of other roundings in a wide picture: 1 / 0.00024"};
     return {one, wide};
 }
 
@@ -287,8 +319,8 @@ const FrameBound& bound_of(const FrameCase& pair, Tier tier, Arithmetic arithmet
 
 std::vector<FrameCase> frame_cases() {
     std::vector<FrameCase> list;
-    for (const std::vector<FrameCase>& part :
-         {moved_cases(), far_place_cases(), unit_cases(), light_cases(), eye_cases(), shape_cases(), size_cases()}) {
+    for (const std::vector<FrameCase>& part : {moved_cases(), far_place_cases(), unit_cases(), light_cases(),
+                                               eye_cases(), shape_cases(), size_cases(), whole_cases()}) {
         list.insert(list.end(), part.begin(), part.end());
     }
     return list;

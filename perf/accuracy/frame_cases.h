@@ -37,6 +37,9 @@ struct FrameCase {
     Relation relation = Relation::same;
     std::optional<Part> plain_part = std::nullopt;  ///< compared; nothing: the whole picture
     std::optional<Part> changed_part = std::nullopt;
+    /// With all that the scene calls for. Otherwise without shadow, bloom and anti_alias: they work on grids, of a map
+    /// that stands still in the world or of the picture's pixels, and what moves against a grid changes at its edges.
+    bool whole = false;
     FrameBound full = {};
     FrameBound half = {};
     std::optional<FrameBound> reference_half = std::nullopt;  ///< the reference tier in half; nothing: as `half`

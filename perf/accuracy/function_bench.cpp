@@ -48,8 +48,8 @@ std::size_t lanes_of(const std::vector<shader_ir::Columns>& inputs) {
 
 std::vector<float> draw_function(gl::EntryPoints& gl, const gl::Caps& caps, const DrawnFunction& function,
                                  const std::vector<shader_ir::Columns>& inputs) {
-    expect(inputs.size() == function.parameters.size() && inputs.size() <= 8,
-           "a drawn function has inputs for its parameters, at most eight");
+    expect(inputs.size() == function.parameters.size() && inputs.size() <= 16,
+           "a drawn function has inputs for its parameters, at most the 16 that ES 3.0 has samplers for");
     LaneCanvas canvas(gl, caps, lanes_of(inputs));
     const std::string main = main_of(function);
     std::vector<gl::ShaderFile> files(gl::shader_files().begin(), gl::shader_files().end());

@@ -27,7 +27,7 @@ struct Result {
     Contestant contestant;
     std::string driver;
     std::string version;
-    std::string lit_by;                  ///< "environment" or "ambient"
+    std::string lit_by;                  ///< "environment"
     std::vector<std::string> notices;    ///< its own words
     std::optional<std::string> refused;  ///< why it has no times
     std::vector<double> ms;              ///< wall clock of a frame

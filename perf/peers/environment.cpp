@@ -9,7 +9,6 @@
 
 #include "content/content.h"
 #include "engine/error.h"
-#include "engine/frame/effect_card.h"
 
 namespace halfframe::peers {
 
@@ -34,21 +33,14 @@ glm::vec3 mean_radiance(const std::filesystem::path& hdr) {
     return glm::vec3(sum / weights);
 }
 
-std::string add_environment(Scene& scene, const std::filesystem::path& hdr, float scale) {
-#ifdef HALFFRAME_PEERS_LOADS_ENVIRONMENTS
-    if (find_effect("environment") != nullptr) {
-        EnvironmentMap map = content::environment(hdr.string()).map;
-        for (auto& level : map.levels) {
-            for (glm::vec3& texel : level) texel *= scale;
-        }
-        for (glm::vec3& term : map.irradiance) term *= scale;
-        scene.environment = std::move(map);
-        scene.ambient = glm::vec3(0.0f);
-        return "environment";
+void add_environment(Scene& scene, const std::filesystem::path& hdr, float scale) {
+    EnvironmentMap map = content::environment(hdr.string()).map;
+    for (auto& level : map.levels) {
+        for (glm::vec3& texel : level) texel *= scale;
     }
-#endif
-    scene.ambient = mean_radiance(hdr) * scale;
-    return "ambient";
+    for (glm::vec3& term : map.irradiance) term *= scale;
+    scene.environment = std::move(map);
+    scene.ambient = glm::vec3(0.0f);
 }
 
 }  // namespace halfframe::peers

@@ -1,4 +1,4 @@
-// What an .hdr file lights a scene with here: the environment effect where this build has it, else its mean as ambient.
+// An .hdr file as the light of a compared scene, brought to the same mean for everybody.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,7 @@ namespace halfframe::peers {
 /// Mean radiance over the sphere of an equirectangular .hdr file, linear. Unreadable: Error(input).
 [[nodiscard]] glm::vec3 mean_radiance(const std::filesystem::path& hdr);
 
-/// Lights `scene` with `hdr` times `scale`. Returns "environment", or "ambient" where this build draws no environments.
-std::string add_environment(Scene& scene, const std::filesystem::path& hdr, float scale);
+/// Lights `scene` with `hdr` times `scale`, and with no ambient beside it.
+void add_environment(Scene& scene, const std::filesystem::path& hdr, float scale);
 
 }  // namespace halfframe::peers

@@ -74,8 +74,7 @@ public:
         scene_ = content::load_gltf(order["model"].get<std::string>());
         set_lights(scene_, order);
         scene_.background = vector_from(order["background"]);
-        const std::string lit_by =
-            add_environment(scene_, order["environment"].get<std::string>(), order["environment_scale"].get<float>());
+        add_environment(scene_, order["environment"].get<std::string>(), order["environment_scale"].get<float>());
         view_ = view_of(camera_from(order["camera"]), order["width"], order["height"]);
         const FramePlan plan = plan_frame(scene_, view_, wishes_, caps_, cards_);
         renderer_ = std::make_unique<Renderer>(gl_, caps_, RendererDescription{.effects = cards_});
@@ -88,7 +87,7 @@ public:
         for (const Pass& pass : plan.passes) passes += (passes.empty() ? "" : ", ") + pass.name;
         return {{"renderer", caps_.renderer},
                 {"version", "halfframe " HALFFRAME_VERSION ", " + caps_.version},
-                {"lit_by", lit_by},
+                {"lit_by", "environment"},
                 {"draws", scene_.surfaces.size()},
                 {"notices", Json::array({fmt::format("passes: {}", passes)})}};
     }
@@ -151,7 +150,10 @@ int run(const std::string& tier_name, const std::string& arithmetic, const std::
         std::cerr << "usage: halfframe_peer low|console|reference half|full surface|constant|fetches\n";
         return static_cast<int>(Fault::usage);
     }
-    std::span<const EffectCard* const> cards = all_effects();
+    // What the peers draw too: no shadow, no bloom, no antialiasing.
+    static constexpr std::array<const EffectCard*, 5> kLit = {&kSurface, &kDepthPrepass, &kEnvironment, &kTransparent,
+                                                              &kToneMap};
+    std::span<const EffectCard* const> cards = kLit;
     if (work == "constant") cards = kConstant;
     if (work == "fetches") cards = kFetches;
     Peer peer(wishes, cards);

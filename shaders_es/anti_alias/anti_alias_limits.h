@@ -1,7 +1,7 @@
 // The edge filter's numbers that shaders and C++ share.
 
-/* Least difference of luma that is an edge, and as a share of the brighter side: below, the eye sees no staircase. Ours:
-   16 codes of 255, an eighth. */
+/* Least difference of luma that is an edge, and as a share of the brighter side: below, the eye sees no staircase.
+   Ours: 16 codes of 255, an eighth. */
 #define ANTI_ALIAS_CONTRAST 0.0627
 #define ANTI_ALIAS_RELATIVE_CONTRAST 0.125
 

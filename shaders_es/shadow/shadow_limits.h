@@ -12,9 +12,10 @@
 /* The map moves over the world in steps of 1/16 of its side: between two steps it need not be drawn again. */
 #define SHADOW_CELLS 16
 
-/* Console: four taps at (near, far) turned by quarters [texels], each the hardware's bilinear comparison. Of the patterns
-   of four tried, the nearest to a box filter over half-planes of random slope and phase: 0.046 rms against a box of 3.25
-   texels (a square of taps at 0.5: 0.053, at 1.0: 0.049; the far pattern 0.5, 1.5: 0.051; one tap: 0.082). */
+/* Console: four taps at (near, far) turned by quarters [texels], each the hardware's bilinear comparison. Of the
+   patterns of four tried, the nearest to a box filter over half-planes of random slope and phase: 0.046 rms against a
+   box of 3.25 texels (a square of taps at 0.5: 0.053, at 1.0: 0.049; the far pattern 0.5, 1.5: 0.051; one tap: 0.082).
+ */
 #define SHADOW_TAP_NEAR 0.375
 #define SHADOW_TAP_FAR 1.125
 

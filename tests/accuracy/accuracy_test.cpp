@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/effects/environment/environment_reference.h"
 #include "engine/effects/anti_alias/anti_alias_reference.h"
 #include "engine/effects/bloom/bloom_reference.h"
+#include "engine/effects/environment/environment_reference.h"
 #include "engine/effects/sky/sky_reference.h"
 #include "engine/effects/surface/surface_reference.h"
 #include "engine/effects/tone_map/tone_map_reference.h"

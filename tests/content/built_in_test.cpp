@@ -12,7 +12,7 @@ namespace {
 bool finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 TEST(BuiltIn, TheListAndOpenSceneAgree) {
-    ASSERT_EQ(content::built_in_scenes().size(), 4u);
+    ASSERT_EQ(content::built_in_scenes().size(), 5u);
     for (const content::BuiltInScene& each : content::built_in_scenes()) {
         EXPECT_EQ(content::open_scene(std::string(each.name)).name, each.name);
         EXPECT_FALSE(each.purpose.empty());
@@ -62,11 +62,11 @@ TEST(BuiltIn, TheRoomHasOneOfEverything) {
     const Scene room = content::open_scene("test_room");
     const Box box = world_box(room);
     // 1e-5: quarter turns by float sines.
-    EXPECT_NEAR(box.low.x, -3.15f, 1e-5);  // roof and walls towards the sun are 15 cm thick
-    EXPECT_NEAR(box.high.x, 3.15f, 1e-5);
-    EXPECT_NEAR(box.low.y, -0.15f, 1e-5);
-    EXPECT_NEAR(box.high.y, 3.15f, 1e-5);
-    EXPECT_NEAR(box.high.z, 2.15f, 1e-5);
+    EXPECT_NEAR(box.low.x, -3.2f, 1e-5);  // roof and walls towards the sun are 20 cm thick
+    EXPECT_NEAR(box.high.x, 3.2f, 1e-5);
+    EXPECT_NEAR(box.low.y, -0.2f, 1e-5);
+    EXPECT_NEAR(box.high.y, 3.2f, 1e-5);
+    EXPECT_NEAR(box.high.z, 2.2f, 1e-5);
     int kinds[3] = {};
     for (const Light& light : room.lights) {
         ++kinds[static_cast<int>(light.kind)];
@@ -136,7 +136,7 @@ TEST(BuiltIn, UnknownNamesOfferTheNearest) {
     } catch (const Error& error) {
         EXPECT_EQ(error.fault(), Fault::input);
         EXPECT_NE(std::string(error.what()).find("did you mean 'test_room'?"), std::string::npos) << error.what();
-        EXPECT_NE(std::string(error.what()).find("furnace, test_room, lamps, empty"), std::string::npos)
+        EXPECT_NE(std::string(error.what()).find("furnace, test_room, spheres, lamps, empty"), std::string::npos)
             << error.what();
     }
 }

@@ -26,7 +26,11 @@ inline glm::vec3 pixel(const FloatPicture& picture, int x, int y) {
 /// scene_color of one frame of `scene` in RGBA32F.
 inline FloatPicture scene_color(harness::Ground& ground, const Scene& scene, const View& view, Tier tier,
                                 Arithmetic arithmetic, std::span<const EffectCard* const> cards = all_effects()) {
-    const Wishes wishes{.tier = tier, .arithmetic = arithmetic, .storage = gl::PixelFormat::rgba32f};
+    // One sample a pixel: what surface wrote, not what a resolve made of it.
+    const Wishes wishes{.tier = tier,
+                        .effect_switches = {{"anti_alias", false}},
+                        .arithmetic = arithmetic,
+                        .storage = gl::PixelFormat::rgba32f};
     const FramePlan frame = plan_frame(scene, view, wishes, ground.caps, cards);
     Renderer renderer(ground.gl, ground.caps, {.program_cache_folder = {}, .effects = cards});
     renderer.prepare(scene, frame);

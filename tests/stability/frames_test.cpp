@@ -16,9 +16,11 @@ TEST_F(FramePairs, FromOddEyes) { expect_stable("eye"); }
 TEST_F(FramePairs, Turned) { expect_stable("turned"); }
 TEST_F(FramePairs, WithTrianglesOfNoArea) { expect_stable("triangles"); }
 TEST_F(FramePairs, InOddSizes) { expect_stable("size"); }
+TEST_F(FramePairs, WithEveryEffect) { expect_stable("whole"); }
 
 TEST(FrameCases, EveryKindIsTested) {
-    const std::set<std::string> tested{"moved", "far_places", "units", "lights", "eye", "turned", "triangles", "size"};
+    const std::set<std::string> tested{"moved",  "far_places", "units", "lights", "eye",
+                                       "turned", "triangles",  "size",  "whole"};
     std::set<std::string> kinds;
     for (const accuracy::FrameCase& pair : accuracy::frame_cases()) kinds.insert(pair.kind);
     EXPECT_EQ(kinds, tested);

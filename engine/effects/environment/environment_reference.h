@@ -11,8 +11,8 @@ namespace halfframe::reference {
 /// factors of EnvironmentMap::irradiance. Never below 0. R. Ramamoorthi and P. Hanrahan, SIGGRAPH 2001.
 [[nodiscard]] double irradiance(const std::array<double, 3>& normal, const std::array<double, 9>& terms);
 
-/// Level of a chain for `smoothness` 0..1, where smoothness 0 reads level `roughest`: (1 - smoothness) roughest, with its
-/// fraction f bent to f + 0.82 f (1 - f). The bend is ours: least error of the peak between two lobes.
+/// Level of a chain for `smoothness` 0..1, where smoothness 0 reads level `roughest`: (1 - smoothness) roughest, with
+/// its fraction f bent to f + 0.82 f (1 - f). The bend is ours: least error of the peak between two lobes.
 [[nodiscard]] double reflection_level(double smoothness, double roughest);
 
 /// Light that an RGBM8 texel of 0..1 stands for: the square of channel * alpha * root_range.

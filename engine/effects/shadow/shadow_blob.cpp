@@ -13,7 +13,7 @@ namespace halfframe {
 namespace {
 
 // Our own figures, chosen by eye in the test room beside the console tier.
-constexpr float kStrength = 0.7f;    ///< of an object that touches the ground; the room's ambient is what is left
+constexpr float kStrength = 0.7f;     ///< of an object that touches the ground; the room's ambient is what is left
 constexpr float kSpread = 1.3f;       ///< radius over the object's half width: the dark outgrows what throws it
 constexpr float kFadeHeights = 2.0f;  ///< gone at this height above ground, in half widths of the object
 constexpr float kSunk = 0.05f;        ///< share of its height that an object may stand inside its ground

@@ -76,11 +76,11 @@ inline reference::Point pixel_ray(const View& view, int x, int y) {
     return {ray.x, ray.y, ray.z};
 }
 
-/// scene_color with the shadow switched, as floats.
+/// scene_color with the shadow switched, as floats, one sample a pixel.
 inline FloatPicture with_shadow(harness::Ground& ground, const Scene& scene, const View& view, Tier tier,
                                 Arithmetic arithmetic, bool on) {
     const Wishes wishes{.tier = tier,
-                        .effect_switches = {{"shadow", on}},
+                        .effect_switches = {{"shadow", on}, {"anti_alias", false}},
                         .arithmetic = arithmetic,
                         .storage = gl::PixelFormat::rgba32f};
     const FramePlan frame = plan_frame(scene, view, wishes, ground.caps, all_effects());

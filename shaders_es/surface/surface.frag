@@ -33,7 +33,8 @@ uniform HALF sampler2D base_color_map;
 uniform HALF sampler2D emissive_map;
 #endif
 #ifndef UNLIT
-uniform HALF vec4 factors;  // x metallic, y roughness, z normal scale
+// x metallic, y roughness, z normal scale; without a map y is the smoothness and w the power, made on the CPU.
+uniform HALF vec4 factors;
 uniform HALF vec4 ambient;  // rgb
 uniform HALF vec4 parallel_eye;  // orthographic: xyz direction to the eye, w 0; else 0, 0, 0, 1
 #ifdef METALLIC_ROUGHNESS_MAP
@@ -92,16 +93,17 @@ void main() {
     vec3 light = base.rgb + emission;
 #else
     float metallic = factors.x;
-    float roughness = factors.y;
 #ifdef METALLIC_ROUGHNESS_MAP
     vec2 packed_factors = sample_2d(metallic_roughness_map, vertex_uv).bg;
     metallic *= packed_factors.x;
-    roughness *= packed_factors.y;
+    float power = power_from_roughness(factors.y * packed_factors.y);
+    float smoothness = smoothness_from_power(power);
+#else
+    float power = factors.w;
+    float smoothness = factors.y;
 #endif
     vec3 albedo = base.rgb * (1.0 - metallic);
     vec3 specular = mix(vec3(SURFACE_DIELECTRIC_SPECULAR), base.rgb, metallic);
-    float power = power_from_roughness(roughness);
-    float smoothness = smoothness_from_power(power);
 
     // FULL: the highlight is the difference of n and h (see blinn_lobe).
     FULL vec3 n = normalize(vertex_normal);

@@ -14,15 +14,15 @@ namespace halfframe {
 
 namespace {
 
-constexpr const char* kAddLight =
-    "diffuse_light += environment_irradiance(n); mirrored_light += environment_reflection(reflect(-v, n), smoothness);";
-constexpr std::array kInsertions = {gl::Insertion{"surface.ambient", "environment/environment_cube.glsl", kAddLight}};
+constexpr gl::Insertion kVertex{"surface.vertex", "environment/environment_vertex.glsl", "place_irradiance(n);"};
+constexpr std::array kInsertions = {
+    kVertex, gl::Insertion{"surface.ambient", "environment/environment_cube.glsl",
+                           "diffuse_light += environment_irradiance(n); "
+                           "mirrored_light += environment_reflection(reflect(-v, n), smoothness);"}};
 constexpr std::array kLowInsertions = {
-    gl::Insertion{"surface.vertex", "environment/environment_low_vertex.glsl",
-                  "vertex_irradiance = environment_irradiance(n);"},
-    gl::Insertion{"surface.ambient", "environment/environment_low_fragment.glsl",
-                  "diffuse_light += vertex_irradiance; "
-                  "mirrored_light += environment_reflection(reflect(-v, n), smoothness);"}};
+    kVertex, gl::Insertion{"surface.ambient", "environment/environment_low_fragment.glsl",
+                           "diffuse_light += vertex_irradiance; "
+                           "mirrored_light += environment_reflection(reflect(-v, n), smoothness);"}};
 
 bool is_lit(const Scene& scene, const Surface& surface) {
     return !scene.meshes[static_cast<std::size_t>(surface.mesh)].normals.empty();
@@ -222,8 +222,12 @@ const EffectCard kEnvironment{
                        "diffuse light by vertex; reflections mixed from two small RGBM8 cubes, so mirrors are soft"},
               TierCard{{},
                        "none of its own",
-                       "diffuse light by pixel; one fetch from the level of an RGBM8 cube that fits the power"},
-              TierCard{{}, "none of its own", "as console, from an RGBA16F cube and in highp"}},
+                       "diffuse light by vertex, by pixel under a normal map; one fetch from the level of an RGBM8 "
+                       "cube that fits "
+                       "the power"},
+              TierCard{{},
+                       "none of its own",
+                       "as console, diffuse light always by pixel, from an RGBA16F cube and in highp"}},
     .called_for = called_for,
     .add_passes = nullptr,
     .insertions = insertions,

@@ -26,6 +26,17 @@ glm::vec3 direction_to_eye(const View& view) {
     return {view.view_from_world[0].z, view.view_from_world[1].z, view.view_from_world[2].z};
 }
 
+/// What the fragment stage makes of a material's numbers; without a map it is spared their powers and logarithms, which
+/// are those of shaders_es/surface/surface.glsl.
+glm::vec4 factors_of(const Material& material, bool maps_roughness) {
+    if (maps_roughness) return {material.metallic, material.roughness, material.normal_scale, 0.0f};
+    const float alpha_squared = std::pow(material.roughness, 4.0f);
+    const auto least = static_cast<float>(2.0 / (SURFACE_POWER_MAX + 2.0));
+    const float power = std::max(2.0f / std::max(alpha_squared, least) - 2.0f, static_cast<float>(SURFACE_POWER_MIN));
+    const float smoothness = std::clamp((std::log2(power) - 1.0f) * 0.1f, 0.0f, 1.0f);
+    return {material.metallic, smoothness, material.normal_scale, power};
+}
+
 const Material& material_of(const Renderer& renderer, const Surface& surface) {
     return renderer.scene().materials[static_cast<std::size_t>(surface.material)];
 }
@@ -76,6 +87,7 @@ int SurfaceWork::variant_of(Renderer& renderer, const std::vector<std::string_vi
     }
     Variant variant;
     variant.program = &program;
+    variant.maps_roughness = std::ranges::find(defines, "METALLIC_ROUGHNESS_MAP") != defines.end();
     variant.clip_from_local = program.uniform("clip_from_local");
     variant.eye_from_local = program.uniform_if_used("eye_from_local");
     variant.normal_from_local = program.uniform_if_used("normal_from_local");
@@ -147,12 +159,9 @@ SurfaceWork::SurfaceWork(Renderer& renderer, const EffectCard& card, SurfacePart
         const bool blends = material_of(renderer, scene.surfaces[i]).alpha_mode == AlphaMode::blend;
         if (blends == (part == SurfacePart::transparent)) add_draw(renderer, static_cast<int>(i));
     }
-    if (part == SurfacePart::transparent) {
-        order_.resize(draws_.size());
-        return;
-    }
-    // Fewest changes of program, then of material, then of culling; the scene's order decides the rest, so that every
-    // run is the same.
+    order_.resize(draws_.size());
+    if (part == SurfacePart::transparent) return;
+    // Fewest changes of program, then of material; the scene's order decides the rest, so that every run is the same.
     std::ranges::stable_sort(draws_, [](const Draw& a, const Draw& b) {
         return std::tie(a.variant, a.material) < std::tie(b.variant, b.material);
     });
@@ -176,7 +185,7 @@ void SurfaceWork::set_material(Renderer& renderer, const View& view, const Varia
     const float base_exposure = unlit ? view.exposure : 1.0f;  // an unlit colour is a radiance, a lit one a reflectance
     set(gl, variant.base_color, glm::vec4(glm::vec3(material.base_color) * base_exposure, material.base_color.a));
     set(gl, variant.emissive, glm::vec4(material.emissive * view.exposure, material.alpha_cutoff));
-    set(gl, variant.factors, glm::vec4(material.metallic, material.roughness, material.normal_scale, 0.0f));
+    set(gl, variant.factors, factors_of(material, variant.maps_roughness));
     for (const TextureBinding& binding : draw.textures) renderer.bind_texture(binding.unit, binding.texture);
     renderer.set_cull(!draw.double_sided);
 }
@@ -281,8 +290,18 @@ void SurfaceWork::sort_by_distance(const Renderer& renderer, const View& view) {
         const glm::vec3 from_eye = (box.low + box.high) * 0.5f - view.eye;
         order_[i] = {static_cast<double>(glm::dot(from_eye, from_eye)), static_cast<int>(i)};
     }
-    std::ranges::sort(order_, [](const Order& a, const Order& b) {
-        return a.distance != b.distance ? a.distance > b.distance : a.draw < b.draw;  // equal distances never swap
+    if (part_ == SurfacePart::transparent) {
+        std::ranges::sort(order_, [](const Order& a, const Order& b) {
+            return a.distance != b.distance ? a.distance > b.distance : a.draw < b.draw;  // equal distances never swap
+        });
+        return;
+    }
+    // draws_ stands by state already; inside one state the nearer hide the farther before these are shaded.
+    std::ranges::sort(order_, [this](const Order& a, const Order& b) {
+        const Draw& first = draws_[static_cast<std::size_t>(a.draw)];
+        const Draw& second = draws_[static_cast<std::size_t>(b.draw)];
+        return std::tie(first.variant, first.material, a.distance, a.draw) <
+               std::tie(second.variant, second.material, b.distance, b.draw);
     });
 }
 
@@ -293,11 +312,10 @@ void SurfaceWork::draw(Renderer& renderer, const View& view, int) {
     if (part_ == SurfacePart::opaque) {
         renderer.set_blend(Blend::none);
         renderer.set_depth(true, true, GL_LEQUAL);
-        for (const Draw& draw : draws_) draw_one(renderer, view, draw);
-        return;
+    } else {
+        renderer.set_blend(Blend::alpha);
+        renderer.set_depth(true, false, GL_LEQUAL);
     }
-    renderer.set_blend(Blend::alpha);
-    renderer.set_depth(true, false, GL_LEQUAL);
     sort_by_distance(renderer, view);
     for (const Order& order : order_) draw_one(renderer, view, draws_[static_cast<std::size_t>(order.draw)]);
 }

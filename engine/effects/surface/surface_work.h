@@ -24,6 +24,7 @@ private:
     /// A program and where its uniforms are; -1: this variant does not use it.
     struct Variant {
         gl::Program* program = nullptr;
+        bool maps_roughness = false;
         int clip_from_local = -1, eye_from_local = -1, normal_from_local = -1, toward_eye = -1;
         int base_color = -1, emissive = -1, factors = -1, ambient = -1, parallel_eye = -1;
         int sun_direction = -1, sun_color = -1;
@@ -64,7 +65,7 @@ private:
         double distance;
         int draw;
     };
-    std::vector<Order> order_;  ///< transparent only: far first; sized while preparing
+    std::vector<Order> order_;  ///< of draws_ in this frame; sized while preparing
     int current_variant_ = -1;
     int current_material_ = -1;
 };

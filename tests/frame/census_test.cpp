@@ -5,6 +5,7 @@
 #include "engine/frame/renderer.h"
 #include "tests/frame/planning.h"
 #include "tests/harness/gl_fixture.h"
+#include "tests/harness/planted_effect.h"
 
 namespace halfframe::tests {
 namespace {
@@ -47,26 +48,11 @@ TEST_F(Census, FindsNothingInTheBuiltInScenes) {
 // 8-bit target stores NaN as 0.
 constexpr gl::Insertion kPlanted[] = {
     {"surface.color", nullptr, "color *= (base_color.a - base_color.a) / (base_color.a - base_color.a);"}};
-const EffectCard kPlantedNan{
-    .name = "planted_nan",
-    .purpose = "Plants a 0/0.",
-    .sources = "none",
-    .kind = EffectKind::material,
-    .called_for_by = "always",
-    .budget_row = "",
-    .tiers = {},
-    .called_for =
-        [](const PlanContext&) {
-            return Demand{true, "this test plants a 0/0"};
-        },
-    .add_passes = nullptr,
-    .insertions = [](const PlanContext&) { return std::span<const gl::Insertion>(kPlanted); },
-    .prepare = nullptr,
-};
+const EffectCard kPlantedNan =
+    harness::planted_effect([](const PlanContext&) { return std::span<const gl::Insertion>(kPlanted); });
 
 TEST_F(Census, FindsAPlantedNan) {
-    std::vector<const EffectCard*> cards(all_effects().begin(), all_effects().end());
-    cards.push_back(&kPlantedNan);
+    const std::vector<const EffectCard*> cards = harness::all_effects_and(kPlantedNan);
     const auto rows = count(square_scene(), square_view(), {.tier = Tier::console}, cards);
     std::uint64_t found = 0;
     for (const CensusRow& row : rows) {

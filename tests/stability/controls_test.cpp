@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "tests/harness/planted_effect.h"
 #include "tests/stability/frame_pairs.h"
 
 namespace halfframe::tests {
@@ -125,26 +126,11 @@ TEST_F(FrameControls, ABlankFrame) {
 // As in tests/frame/census_test.cpp: an 8-bit target stores NaN as 0, and a black room may well be the same as before.
 constexpr gl::Insertion kPlanted[] = {
     {"surface.color", nullptr, "color *= (base_color.a - base_color.a) / (base_color.a - base_color.a);"}};
-const EffectCard kPlantedNan{
-    .name = "planted_nan",
-    .purpose = "Plants a 0/0.",
-    .sources = "none",
-    .kind = EffectKind::material,
-    .called_for_by = "always",
-    .budget_row = "",
-    .tiers = {},
-    .called_for =
-        [](const PlanContext&) {
-            return Demand{true, "this test plants a 0/0"};
-        },
-    .add_passes = nullptr,
-    .insertions = [](const PlanContext&) { return std::span<const gl::Insertion>(kPlanted); },
-    .prepare = nullptr,
-};
+const EffectCard kPlantedNan =
+    harness::planted_effect([](const PlanContext&) { return std::span<const gl::Insertion>(kPlanted); });
 
 TEST_F(FrameControls, ANanInBothFrames) {
-    std::vector<const EffectCard*> cards(all_effects().begin(), all_effects().end());
-    cards.push_back(&kPlantedNan);
+    const std::vector<const EffectCard*> cards = harness::all_effects_and(kPlantedNan);
     accuracy::FrameBench with_nan(gl(), caps(), cards);
     const auto found = with_nan.measure(pair_of("triangles"), Tier::console, Arithmetic::full);
     EXPECT_GT(found.not_finite, 1000u);

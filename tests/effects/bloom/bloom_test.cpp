@@ -12,6 +12,7 @@
 #include "engine/effects/tone_map/tone_map_reference.h"
 #include "shaders_es/bloom/bloom_limits.h"
 #include "tests/effects/pixel_scene.h"
+#include "tests/harness/planted_effect.h"
 
 namespace halfframe::tests {
 namespace {
@@ -191,26 +192,11 @@ constexpr Spoiler kSpoilers[] = {
     {{{"surface.color", nullptr, "if (base_color.a < 0.75) color *= 1e30 * base_color.a * 1e30;"}}, "inf"},
     {{{"surface.color", nullptr, "if (base_color.a < 0.75) color = -color;"}}, "negative"}};
 const Spoiler* spoiler_in_force = nullptr;  // cards are plain functions: they cannot carry which one
-const EffectCard kSpoilt{
-    .name = "spoilt",
-    .purpose = "Plants what no light may be.",
-    .sources = "none",
-    .kind = EffectKind::material,
-    .called_for_by = "always",
-    .budget_row = "",
-    .tiers = {},
-    .called_for =
-        [](const PlanContext&) {
-            return Demand{true, "this test plants it"};
-        },
-    .add_passes = nullptr,
-    .insertions = [](const PlanContext&) { return std::span<const gl::Insertion>(spoiler_in_force->insertion); },
-    .prepare = nullptr,
-};
+const EffectCard kSpoilt = harness::planted_effect(
+    [](const PlanContext&) { return std::span<const gl::Insertion>(spoiler_in_force->insertion); });
 
 TEST_F(Bloom, WhatIsNoLightDoesNotSpread) {
-    std::vector<const EffectCard*> cards(all_effects().begin(), all_effects().end());
-    cards.push_back(&kSpoilt);
+    const std::vector<const EffectCard*> cards = harness::all_effects_and(kSpoilt);
     LightPicture picture(kSize, kSize);
     picture.at(64, 64) = glm::vec3(3.0f);
     Scene scene = with_bloom(pixel_scene(picture));

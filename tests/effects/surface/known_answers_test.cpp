@@ -10,6 +10,7 @@
 #include "content/shapes.h"
 #include "engine/effects/surface/surface_reference.h"
 #include "tests/effects/lit_square.h"
+#include "tests/harness/planted_effect.h"
 
 namespace halfframe::tests {
 namespace {
@@ -21,22 +22,8 @@ using glm::dvec3;
 constexpr gl::Insertion kChosen[] = {
     {"surface.material", nullptr,
      "albedo = vec3(base.r); specular = vec3(base.g); smoothness = base.b; power = exp2(10.0 * base.b + 1.0);"}};
-const EffectCard kChosenMaterial{
-    .name = "chosen_material",
-    .purpose = "Takes albedo, specular and smoothness from the base colour.",
-    .sources = "none",
-    .kind = EffectKind::material,
-    .called_for_by = "always",
-    .budget_row = "",
-    .tiers = {},
-    .called_for =
-        [](const PlanContext&) {
-            return Demand{true, "this test chooses albedo, specular and smoothness"};
-        },
-    .add_passes = nullptr,
-    .insertions = [](const PlanContext&) { return std::span<const gl::Insertion>(kChosen); },
-    .prepare = nullptr,
-};
+const EffectCard kChosenMaterial =
+    harness::planted_effect([](const PlanContext&) { return std::span<const gl::Insertion>(kChosen); });
 
 struct On {
     Tier tier;

@@ -17,6 +17,7 @@ inline EffectCard planted_effect(std::span<const gl::Insertion> (*insertions)(co
             .called_for_by = "always",
             .budget_row = "",
             .tiers = {},
+            .indispensable = "",
             .called_for =
                 [](const PlanContext&) {
                     return Demand{true, "a test plants it"};

@@ -9,9 +9,19 @@
 
 #include <glm/glm.hpp>
 
+#include "engine/frame/motion.h"
+
 namespace halfframe {
 
 enum class Primitive : std::uint8_t { points, lines, line_loop, line_strip, triangles, triangle_strip, triangle_fan };
+
+/// What a morph target of weight 1 adds to a mesh. Empty streams add nothing; present ones are as long as the mesh's.
+struct MorphTarget {
+    std::string name;
+    std::vector<glm::vec3> positions;  ///< [m]
+    std::vector<glm::vec3> normals;
+    std::vector<glm::vec3> tangents;
+};
 
 /// One vertex stream set. Empty optional streams are absent; present ones are as long as `positions`.
 struct Mesh {
@@ -20,7 +30,11 @@ struct Mesh {
     std::vector<glm::vec3> normals;    ///< unit
     std::vector<glm::vec4> tangents;   ///< xyz unit, w = +1 or -1: bitangent = cross(normal, tangent) * w
     std::vector<glm::vec2> uv;
-    std::vector<glm::vec4> colors;       ///< linear, 0..1
+    std::vector<glm::vec2> uv1;        ///< second set
+    std::vector<glm::vec4> colors;     ///< linear, 0..1
+    std::vector<glm::u16vec4> joints;  ///< indices in Skin::joints: the four that weigh most
+    std::vector<glm::vec4> weights;    ///< of these joints; they sum to 1
+    std::vector<MorphTarget> morph_targets;
     std::vector<std::uint32_t> indices;  ///< empty: draw in order
     Primitive primitive = Primitive::triangles;
 };
@@ -47,23 +61,51 @@ struct Texture {
     bool operator==(const Texture&) const = default;
 };
 
+/// How a texture's coordinates are made of the mesh's: uv' = rotate(uv * scale) + offset (KHR_texture_transform).
+struct UvMapping {
+    int set = 0;  ///< 0: Mesh::uv, 1: Mesh::uv1
+    glm::vec2 offset{0.0f};
+    glm::vec2 scale{1.0f};
+    float rotation_rad = 0.0f;  ///< counter-clockwise in the picture, about the coordinates' origin
+    bool operator==(const UvMapping&) const = default;
+};
+
+enum class MaterialModel : std::uint8_t {
+    metallic_roughness,
+    specular_glossiness,  ///< the talk's own parameters: albedo, specular, smoothness
+                          ///< (KHR_materials_pbrSpecularGlossiness)
+    unlit,                ///< shows base_color as it is (KHR_materials_unlit)
+};
+
 enum class AlphaMode : std::uint8_t { opaque, mask, blend };
 
-/// Metallic-roughness as glTF 2.0 has it; mapped to albedo, specular and power by surface (engine/effects/surface).
+/// A material as glTF 2.0 has it; mapped to albedo, specular and power by surface (engine/effects/surface).
 struct Material {
     std::string name;
-    glm::vec4 base_color{1.0f};  ///< linear, 0..1
+    MaterialModel model = MaterialModel::metallic_roughness;
+    glm::vec4 base_color{1.0f};  ///< linear, 0..1; the albedo where the model is specular_glossiness
     float metallic = 1.0f;       ///< 0..1
     float roughness = 1.0f;      ///< 0..1, perceptual (alpha = roughness squared)
+    float ior = 1.5f;            ///< of the dielectric: its specular is ((ior - 1) / (ior + 1))^2; >= 1, 0: specular 1
+    glm::vec3 specular{1.0f};    ///< times the dielectric's specular (KHR_materials_specular, factor times colour);
+                                 ///< with specular_glossiness the specular itself, linear
+    float smoothness = 1.0f;     ///< specular_glossiness only: the glossiness, 0..1; roughness is 1 - smoothness
     glm::vec3 emissive{0.0f};    ///< linear radiance scale
+    float occlusion_strength = 1.0f;  ///< 0..1, of occlusion_texture
     float normal_scale = 1.0f;
     float alpha_cutoff = 0.5f;  ///< 0..1, mask only
     AlphaMode alpha_mode = AlphaMode::opaque;
     bool double_sided = false;
-    Texture base_color_texture;          ///< sRGB
-    Texture metallic_roughness_texture;  ///< G roughness, B metallic
-    Texture normal_texture;              ///< tangent space, +Y up
-    Texture emissive_texture;            ///< sRGB
+    Texture base_color_texture;           ///< sRGB
+    Texture metallic_roughness_texture;   ///< G roughness, B metallic
+    Texture normal_texture;               ///< tangent space, +Y up
+    Texture emissive_texture;             ///< sRGB
+    Texture occlusion_texture;            ///< R: the share of light from everywhere that arrives
+    Texture specular_texture;             ///< A: times `specular`; linear
+    Texture specular_color_texture;       ///< sRGB: times `specular`
+    Texture specular_smoothness_texture;  ///< specular_glossiness only: RGB specular (sRGB), A smoothness
+    UvMapping base_color_uv, metallic_roughness_uv, normal_uv, emissive_uv;
+    UvMapping occlusion_uv, specular_uv, specular_color_uv, specular_smoothness_uv;
 };
 
 /// One drawn thing: a mesh with a material at a place.
@@ -73,6 +115,8 @@ struct Surface {
     int material = 0;
     glm::mat4 world_from_local{1.0f};
     bool dynamic = false;  ///< moves: characters, doors
+    int node = -1;         ///< index in Scene::nodes that carries it; -1: stays where it is
+    int skin = -1;         ///< index in Scene::skins; then `world_from_local` is not used
 };
 
 enum class LightKind : std::uint8_t { sun, point, spot };
@@ -89,6 +133,7 @@ struct Light {
     float inner_cone_rad = 0.0f;             ///< spot: full inside this half angle
     float outer_cone_rad = 0.785398f;        ///< spot: dark outside this half angle
     float radius_m = 0.0f;                   ///< of the shining sphere, less than range_m; 0: a point. point, spot
+    int node = -1;                           ///< index in Scene::nodes that carries it along its -Z; -1: stays
 };
 
 struct Camera {
@@ -100,6 +145,7 @@ struct Camera {
     bool orthographic = false;
     float half_height_m = 1.0f;  ///< orthographic
     float exposure = 1.0f;       ///< linear factor before the tone map, > 0
+    int node = -1;               ///< index in Scene::nodes that carries it; -1: stays
 };
 
 /// A vertical gradient in *display* values (what a picture would show), taken back to linear light through the inverse
@@ -141,6 +187,9 @@ struct Scene {
     std::vector<Surface> surfaces;
     std::vector<Light> lights;
     std::vector<Camera> cameras;
+    std::vector<Node> nodes;  ///< only what moves, and what that hangs on
+    std::vector<Skin> skins;
+    std::vector<Animation> animations;
     glm::vec3 ambient{0.0f};                    ///< constant radiance from everywhere, linear; added to `environment`
     std::optional<EnvironmentMap> environment;  ///< none: nothing to reflect but `ambient`
     std::optional<Bloom> bloom;                 ///< none: as `Bloom{}` if something shines above 1 by itself

@@ -78,7 +78,7 @@ std::vector<FunctionEntry> environment_functions() {
     level.method = {1e-6, kSameFormula};
     level.in_float = {4e-6, "a rounding of levels up to 4; where the fraction jumps both sides give the same level"};
     level.half = {0.02,
-                  "1 - smoothness is off by 2^-12, times 4 levels, times the bend's slope of 1.82; two roundings of a "
+                  "1 - smoothness is off by 2^-12, times 4 levels, times the bend's slope of 1.4; two roundings of a "
                   "level up to 4 follow, 2^-9 each"};
     level.flushed = {0.02, "as half"};
 

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/effects/environment/environment_reference.h"
 #include "engine/effects/surface/surface_reference.h"
 #include "engine/error.h"
 #include "engine/frame/effect_card.h"
@@ -40,10 +41,11 @@ ModelAccuracy measure(const ModelEntry& entry) {
 }
 
 std::vector<ModelEntry> model_list() {
-    const std::vector<ModelEntry> all{reflectance_of_mapping(&reference::power_from_roughness),
-                                      radiance_of_mapping(&reference::power_from_roughness),
-                                      furnace_of_ambient(&reference::fresnel_glossy), furnace_of_direct_light(),
-                                      glossy_fresnel_of_split_sum(&reference::fresnel_glossy)};
+    const std::vector<ModelEntry> all{
+        reflectance_of_mapping(&reference::power_from_roughness), radiance_of_mapping(&reference::power_from_roughness),
+        furnace_of_ambient(&reference::fresnel_glossy),           furnace_of_direct_light(),
+        glossy_fresnel_of_split_sum(&reference::fresnel_glossy),  reflection_of_integral(&reference::fresnel_glossy),
+        reflection_between_levels(&reference::reflection_level)};
     std::vector<ModelEntry> list;
     for (const ModelEntry& entry : all) {
         if (find_effect(entry.effect) != nullptr) list.push_back(entry);

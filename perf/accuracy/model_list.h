@@ -43,6 +43,10 @@ struct ModelAccuracy {
 /// Every model of the effects that are in this build.
 [[nodiscard]] std::vector<ModelEntry> model_list();
 
+// The models of the environment; a test may plant another glossy Fresnel, or another level for a smoothness 0..1.
+using LevelOfSmoothness = double (*)(double smoothness, double roughest_level);
+[[nodiscard]] ModelEntry reflection_between_levels(LevelOfSmoothness level);
+
 // The models of the surface, with what a test may plant: how a roughness becomes a power, how a smoothness brightens.
 using PowerOfRoughness = double (*)(double roughness);
 using GlossyFresnel = double (*)(double specular, double smoothness, double n_v);
@@ -51,5 +55,7 @@ using GlossyFresnel = double (*)(double specular, double smoothness, double n_v)
 [[nodiscard]] ModelEntry furnace_of_ambient(GlossyFresnel fresnel);
 [[nodiscard]] ModelEntry furnace_of_direct_light();
 [[nodiscard]] ModelEntry glossy_fresnel_of_split_sum(GlossyFresnel fresnel);
+/// Of the environment, but its Fresnel is the surface's.
+[[nodiscard]] ModelEntry reflection_of_integral(GlossyFresnel fresnel);
 
 }  // namespace halfframe::accuracy

@@ -13,12 +13,12 @@ vec3 irradiance(vec3 n, vec3 c0, vec3 c1, vec3 c2, vec3 c3, vec3 c4, vec3 c5, ve
 }
 
 // Which level to read for a smoothness 0..1; roughest is the level of smoothness 0. Powers grow by a factor of 5.6 from one
-// level to the next and a blend of two lobes is no lobe of a power between: bending the fraction brings the blend's peak
-// from 35 % to 17 % of the true one (measured in double; content/environment/README.md).
+// level to the next and a blend of two lobes is no lobe of a power between: bending the fraction evens out what is too
+// bright in the blend's peak and too dark on its flanks (`halfframe accuracy environment`, "between levels").
 float reflection_level(float smoothness, float roughest) {
     float level = (1.0 - smoothness) * roughest;
     float part = fract(level);
-    return level + 0.82 * part * (1.0 - part);
+    return level + 0.4 * part * (1.0 - part);
 }
 
 // RGBM8 holds the root of the light, rgb = root / (alpha root_range): the square spends the eight bits as the eye does, and

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <string>
 
+#include "engine/effects/environment/environment_reference.h"
 #include "engine/effects/surface/surface_model_reference.h"
 #include "engine/effects/surface/surface_reference.h"
 #include "perf/accuracy/error_map.h"
@@ -29,7 +30,7 @@ TEST(Models, EveryModelIsWithinItsBounds) {
         EXPECT_GT(std::string(entry.mean.reason).size(), 20u) << entry.model;
         ++measured;
     }
-    EXPECT_GE(measured, 5u);  // when this was written
+    EXPECT_GE(measured, 7u);  // when this was written
 }
 
 TEST(Models, ALobeOfAnotherWidthIsCaught) {
@@ -53,6 +54,28 @@ TEST(Models, AnotherGlossyFresnelIsCaught) {
     EXPECT_FALSE(measure(glossy_fresnel_of_split_sum(schlick)).violations.empty());
     EXPECT_FALSE(measure(glossy_fresnel_of_split_sum(none)).violations.empty());
     EXPECT_FALSE(measure(furnace_of_ambient(schlick)).violations.empty());
+}
+
+TEST(Models, AnotherReflectionOfTheEnvironmentIsCaught) {
+    const GlossyFresnel none = [](double specular, double, double) { return specular; };
+    const GlossyFresnel of_the_smooth = [](double specular, double, double n_v) {
+        return reference::fresnel_glossy(specular, 0.5, n_v);  // forgets the smoothness
+    };
+    for (const GlossyFresnel wrong : {none, of_the_smooth}) {
+        const ModelAccuracy found = measure(reflection_of_integral(wrong));
+        EXPECT_FALSE(found.violations.empty()) << found.mean << " " << found.lowest << " " << found.highest;
+    }
+    const LevelOfSmoothness unbent = [](double smoothness, double roughest) { return (1.0 - smoothness) * roughest; };
+    const LevelOfSmoothness nearest = [](double smoothness, double roughest) {
+        return std::round((1.0 - smoothness) * roughest);
+    };
+    const LevelOfSmoothness too_sharp = [](double smoothness, double roughest) {
+        return 0.9 * (1.0 - smoothness) * roughest;
+    };
+    for (const LevelOfSmoothness wrong : {unbent, nearest, too_sharp}) {
+        const ModelAccuracy found = measure(reflection_between_levels(wrong));
+        EXPECT_FALSE(found.violations.empty()) << found.mean << " " << found.lowest << " " << found.highest;
+    }
 }
 
 TEST(Models, TheTwoFurnacesThatLoseNothing) {
@@ -104,6 +127,21 @@ TEST(ModelTruths, SplitSumsAreTheIntegralsOfTheirBrdfs) {
                 const double talk =
                     reflectance(n_v, [&](const Cosines& at) { return reference::talk_brdf(0.3, 0.6, power, at); });
                 EXPECT_NEAR(0.3 + reference::split_sum_blinn(power, n_v).of(0.6), talk, 3e-3) << where;
+            }
+        }
+    }
+}
+
+TEST(ModelTruths, ReflectedLightOfAWhiteSkyIsTheSplitSum) {
+    const auto white = [](const std::array<double, 3>&) { return 1.0; };
+    for (const double n_v : {0.2, 0.6, 1.0}) {
+        const std::array<double, 3> to_eye{std::sqrt(1.0 - n_v * n_v), 0.0, n_v};
+        for (const double alpha : {0.1, 0.5, 1.0}) {
+            for (const double specular : {0.04, 1.0}) {
+                // 2e-3: the horizon cuts a grid of 256 x 256 half vectors and one of 256 x 64 at other places
+                EXPECT_NEAR(reference::reflected_light_ggx(white, to_eye, specular, alpha * alpha, 256),
+                            reference::split_sum_ggx(alpha, n_v).of(specular), 2e-3)
+                    << n_v << " " << alpha;
             }
         }
     }

@@ -12,7 +12,8 @@ namespace halfframe::reference {
 [[nodiscard]] double irradiance(const std::array<double, 3>& normal, const std::array<double, 9>& terms);
 
 /// Level of a chain for `smoothness` 0..1, where smoothness 0 reads level `roughest`: (1 - smoothness) roughest, with
-/// its fraction f bent to f + 0.82 f (1 - f). The bend is ours: least error of the peak between two lobes.
+/// its fraction f bent to f + 0.4 f (1 - f). The bend is ours: of 0, 0.2, 0.4, 0.6, 0.8 the least mean
+/// error in display codes for lamps of 2 to 20 degrees, and next to the least up to 80 (least largest error: 0).
 [[nodiscard]] double reflection_level(double smoothness, double roughest);
 
 /// Light that an RGBM8 texel of 0..1 stands for: the square of channel * alpha * root_range.
@@ -25,9 +26,14 @@ namespace halfframe::reference {
 /// One channel of the light that leaves towards the unit vector `to_eye` when a surface of normal (0, 0, 1) reflects
 /// `radiance(direction)` by the Blinn microfacet model, without the albedo: the integral over the hemisphere of
 /// F(l.h) (power + 2) / (8 pi) (n.h)^power radiance(l) (n.l). `steps` a side of the grid of half vectors; 256 are
-/// within 1e-4 for radiance that is smooth over a degree. N. Hoffman, SIGGRAPH 2010. This is what fresnel_glossy()
-/// times a prefiltered level stands for.
+/// within 1e-4 for radiance that is smooth over a degree. N. Hoffman, SIGGRAPH 2010.
 [[nodiscard]] double reflected_light(const std::function<double(const std::array<double, 3>&)>& radiance,
                                      const std::array<double, 3>& to_eye, double specular, double power, int steps);
+
+/// The same with the specular lobe of glTF 2.0, appendix B (Trowbridge-Reitz, height-correlated Smith), whose alpha
+/// squared is `alpha_squared`. This is what fresnel_glossy() times a prefiltered level stands for.
+[[nodiscard]] double reflected_light_ggx(const std::function<double(const std::array<double, 3>&)>& radiance,
+                                         const std::array<double, 3>& to_eye, double specular, double alpha_squared,
+                                         int steps);
 
 }  // namespace halfframe::reference

@@ -64,9 +64,8 @@ StoredEnvironment filtered(const Equirectangular& picture, const std::string& na
     for (std::size_t i = 0; i < 9; ++i) result.map.irradiance[i] = glm::vec3(diffuse.terms[i]);
     if (diffuse.window > 0.0) {
         result.notices.push_back(
-            fmt::format("{}: its light comes so much from one side that its diffuse part would fall below zero on the "
-                        "other; it was "
-                        "softened (window {:.4f}, first band x {:.3f}, second x {:.3f})",
+            fmt::format("{}: its light comes so much from one side that nine terms of its diffuse part would darken the "
+                        "other too much; it was softened (window {:.4f}, first band x {:.3f}, second x {:.3f})",
                         name, diffuse.window, 1.0 / (1.0 + 4.0 * diffuse.window), 1.0 / (1.0 + 36.0 * diffuse.window)));
     }
     return result;

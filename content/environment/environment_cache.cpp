@@ -19,7 +19,7 @@ namespace halfframe::content {
 namespace {
 
 /// Raise the number whenever the same source would give other texels, or the layout below changes.
-constexpr std::string_view kVersion = "halfframe environment 1\n";
+constexpr std::string_view kVersion = "halfframe environment 2\n";
 
 template <typename T>
 void put(std::string& bytes, const T* values, std::size_t count) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "engine/error.h"
@@ -13,6 +14,10 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 /// Share of the mean that stays at least: room for the rounding of nine floats.
 constexpr double kMargin = 1e-6;
+/// Share of what the darkest side truly receives that stays at least. All of it would flatten the bright side too.
+constexpr double kDarkestShare = 0.75;
+/// Directions that are asked for the darkest side: 16 degrees apart, where the widest lobe there is has 120.
+constexpr int kDarkestDirections = 192;
 
 std::array<double, 9> polynomial(const glm::dvec3& n) {
     return {1.0, n.y, n.z, n.x, n.x * n.y, n.y * n.z, 3.0 * n.z * n.z - 1.0, n.x * n.z, n.x * n.x - n.y * n.y};
@@ -39,31 +44,48 @@ std::array<glm::dvec3, 9> windowed(const std::array<glm::dvec3, 9>& terms, doubl
     return result;
 }
 
-bool is_nowhere_negative(const std::array<glm::dvec3, 9>& terms) {
+/// What the darkest side receives, by channel, summed over the light itself.
+glm::dvec3 darkest_side(const LightTaps& light) {
+    glm::dvec3 darkest(std::numeric_limits<double>::max());
+    for (int i = 0; i < kDarkestDirections; ++i) {
+        const double height = 1.0 - (2.0 * i + 1.0) / kDarkestDirections;
+        const double turn = i * kPi * (3.0 - std::sqrt(5.0));  // the golden angle: an even spiral
+        const double radius = std::sqrt(1.0 - height * height);
+        const glm::dvec3 normal(radius * std::cos(turn), height, radius * std::sin(turn));
+        glm::dvec3 sum(0.0);
+        for (const LightTap& tap : light.taps) {
+            sum += tap.radiance * (tap.solid_angle * std::max(glm::dot(normal, tap.direction), 0.0));
+        }
+        darkest = glm::min(darkest, sum / kPi);
+    }
+    return darkest;
+}
+
+bool is_nowhere_below(const std::array<glm::dvec3, 9>& terms, const glm::dvec3& darkest) {
     for (int channel = 0; channel < 3; ++channel) {
         std::array<double, 9> one{};
         for (std::size_t i = 0; i < 9; ++i) one[i] = terms[i][channel];
-        if (lowest_value(one) < kMargin * one[0]) return false;
+        if (lowest_value(one) < std::max(kMargin * one[0], kDarkestShare * darkest[channel])) return false;
     }
     return true;
 }
 
 /// The least window that is enough. The lowest value need not rise steadily with the window, so steps of a tenth find
 /// the first that is enough, and halving finds its edge.
-double least_window(const std::array<glm::dvec3, 9>& terms) {
-    if (is_nowhere_negative(terms)) return 0.0;
+double least_window(const std::array<glm::dvec3, 9>& terms, const glm::dvec3& darkest) {
+    if (is_nowhere_below(terms, darkest)) return 0.0;
     double too_small = 0.0;
     double enough = 1e-5;
-    while (!is_nowhere_negative(windowed(terms, enough))) {
+    while (!is_nowhere_below(windowed(terms, enough), darkest)) {
         too_small = enough;
         enough *= 1.1;
-        // The first band of light >= 0 is at most 2 times its mean, the second 5/4 times: 1/8 of both is far above
-        // zero.
-        expect(enough < 10.0, "irradiance is positive under a strong window");
+        // The first band of light >= 0 is at most 2 times its mean, the second 5/4 times: a sixteenth of both leaves
+        // more than three quarters of the mean, and no side is darker than the mean.
+        expect(enough < 10.0, "a strong window leaves nearly the mean");
     }
     for (int i = 0; i < 30; ++i) {
         const double middle = 0.5 * (too_small + enough);
-        (is_nowhere_negative(windowed(terms, middle)) ? enough : too_small) = middle;
+        (is_nowhere_below(windowed(terms, middle), darkest) ? enough : too_small) = middle;
     }
     return enough;
 }
@@ -122,7 +144,7 @@ Irradiance irradiance(const LightTaps& light) {
     for (std::size_t i = 1; i < 9; ++i) {
         result.terms[i] *= squared_norm(i) * cosine_band(i) * (4.0 * kPi / solid_angle);
     }
-    result.window = least_window(result.terms);
+    result.window = least_window(result.terms, darkest_side(light));
     result.terms = windowed(result.terms, result.window);
     return result;
 }

@@ -16,6 +16,7 @@ set(HALFFRAME_PUBLIC_HEADERS
   engine/frame/image.h
   engine/frame/pass_timer.h
   engine/frame/renderer.h
+  engine/frame/motion.h
   engine/frame/scene.h
   engine/frame/tier.h
   engine/frame/uploads.h

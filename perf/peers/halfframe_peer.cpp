@@ -1,5 +1,5 @@
 // The halfframe peer: draws one model through the public library as the orders on standard input say, one JSON object a
-// line, answers on standard output. Usage: halfframe_peer TIER ARITHMETIC surface|constant|fetches
+// line, answers on standard output. Usage: halfframe_peer TIER ARITHMETIC surface|constant|fetches [rgba8]
 #include <array>
 #include <chrono>
 #include <fstream>
@@ -138,16 +138,19 @@ Json answer(Peer& peer, const Json& order) {
     }
 }
 
-int run(const std::string& tier_name, const std::string& arithmetic, const std::string& work) {
+int run(const std::string& tier_name, const std::string& arithmetic, const std::string& work,
+        const std::string& storage) {
     static constexpr std::array<const EffectCard*, 2> kConstant = {&kConstantFloor, &kToneMap};
     static constexpr std::array<const EffectCard*, 2> kFetches = {&kFetchFloor, &kToneMap};
     Wishes wishes;
     wishes.tier = tier_from_name(tier_name);
     wishes.arithmetic = arithmetic == "half" ? Arithmetic::half : Arithmetic::full;
-    const bool known = wishes.tier && (arithmetic == "half" || arithmetic == "full") &&
+    if (!storage.empty()) wishes.storage = gl::PixelFormat::rgba8;
+    const bool known = wishes.tier && (storage.empty() || storage == "rgba8") &&
+                       (arithmetic == "half" || arithmetic == "full") &&
                        (work == "surface" || work == "constant" || work == "fetches");
     if (!known) {
-        std::cerr << "usage: halfframe_peer low|console|reference half|full surface|constant|fetches\n";
+        std::cerr << "usage: halfframe_peer low|console|reference half|full surface|constant|fetches [rgba8]\n";
         return static_cast<int>(Fault::usage);
     }
     // What the peers draw too: no shadow, no bloom, no antialiasing.
@@ -169,7 +172,7 @@ int run(const std::string& tier_name, const std::string& arithmetic, const std::
 int main(int argument_count, char** arguments) {
     try {
         return halfframe::peers::run(argument_count > 1 ? arguments[1] : "", argument_count > 2 ? arguments[2] : "",
-                                     argument_count > 3 ? arguments[3] : "");
+                                     argument_count > 3 ? arguments[3] : "", argument_count > 4 ? arguments[4] : "");
     } catch (const std::exception& error) {
         std::cout << nlohmann::json{{"error", error.what()}}.dump() << std::endl;
         return 4;

@@ -143,7 +143,8 @@ TEST(Usage, help_explains_every_option_and_the_exit_codes) {
         {"info", {"--context", "--device", "--json"}},
         {"effects", {"--json"}},
         {"scenes", {"--json"}},
-        {"accuracy", {"--json"}}};
+        {"accuracy", {"--json"}},
+        {"contact-sheet", {"--output", "--cell", "--columns", "--tier", "--device", "--measure", "--limit", "--font"}}};
     for (const auto& [command, options] : commands) {
         const ChildResult help = halfframe({command, "--help"});
         EXPECT_EQ(help.code, 0) << command;

@@ -54,6 +54,13 @@ float linear(int code) {
     return value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f);
 }
 
+/// The glTF roughness of the talk's smoothness: power = 2^(10 smoothness + 1), and the surface's power is
+/// 2 / roughness^4 - 2 (engine/effects/surface). The ends are roughness 0.84 and 0.18: beyond, nothing changes.
+float roughness_of(float smoothness) {
+    const float power = std::exp2(10.0f * smoothness + 1.0f);
+    return std::pow(2.0f / (power + 2.0f), 0.25f);
+}
+
 Material material_of(const ChartEntry& entry, bool metal, float roughness) {
     Material material;
     material.name = entry.name;
@@ -119,7 +126,7 @@ Scene make_charts() {
         // The chart's smoothness is grey, 0 rough to 1 smooth; its power is 2 to 2048.
         const float smoothness = static_cast<float>(column) / (kColumns - 1);
         for (const bool is_metal : {false, true}) {
-            Material material = material_of(is_metal ? kRampMetal : kRampGrey, is_metal, 1.0f - smoothness);
+            Material material = material_of(is_metal ? kRampMetal : kRampGrey, is_metal, roughness_of(smoothness));
             material.name = fmt::format("{} {:.2f}", material.name, smoothness);
             charts.add(is_metal ? 3 : 2, column, material, fmt::format("smooth {:.2f}", smoothness),
                        is_metal ? "metal" : "no metal");

@@ -144,6 +144,7 @@ TEST(Usage, help_explains_every_option_and_the_exit_codes) {
         {"effects", {"--json"}},
         {"scenes", {"--json"}},
         {"accuracy", {"--json"}},
+        {"check", {"--thresholds", "--strict", "--json", "--sarif", "--picture", "--font", "--device", "--size"}},
         {"contact-sheet", {"--output", "--cell", "--columns", "--tier", "--device", "--measure", "--limit", "--font"}}};
     for (const auto& [command, options] : commands) {
         const ChildResult help = halfframe({command, "--help"});

@@ -47,6 +47,8 @@ void add_rectangle(Mesh& mesh, const glm::vec3& lower_left, const glm::vec2& siz
     for (const glm::vec2 corner : {glm::vec2(0, 0), glm::vec2(1, 0), glm::vec2(1, 1), glm::vec2(0, 1)}) {
         mesh.positions.push_back(lower_left + glm::vec3(corner * size_m, 0.0f));
         mesh.normals.emplace_back(0.0f, 0.0f, 1.0f);
+        mesh.tangents.emplace_back(1.0f, 0.0f, 0.0f, 1.0f);
+        mesh.uv.emplace_back(corner.x, 1.0f - corner.y);
     }
     for (const std::uint32_t corner : {0u, 1u, 2u, 0u, 2u, 3u}) mesh.indices.push_back(first + corner);
 }

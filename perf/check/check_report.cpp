@@ -86,8 +86,12 @@ std::string check_text(const Report& report) {
                                      112, 4);
         text += "\n    " + perf::wrapped(broken.remedy, 108, 4) + "\n";
     }
-    text += fmt::format("{}{}: {} errors, {} warnings, {} notes\n", text.empty() ? "" : "\n", report.scene,
-                        report.count(Level::error), report.count(Level::warning), report.count(Level::note));
+    const auto counted = [&](Level level) {
+        const std::size_t count = report.count(level);
+        return fmt::format("{} {}{}", count, name(level), count == 1 ? "" : "s");
+    };
+    text += fmt::format("{}{}: {}, {}, {}\n", text.empty() ? "" : "\n", report.scene, counted(Level::error),
+                        counted(Level::warning), counted(Level::note));
     return text;
 }
 

@@ -82,7 +82,7 @@ TEST(Text, names_rule_place_figures_and_remedy) {
     const TemporaryFolder folder;
     const std::string text = check_text(report_of(folder.write("dark.gltf", dark_document().dump())));
     for (const char* part : {"error albedo-dark: /materials/1, material 'black'", "wished is 32 to 243", "Brighten",
-                             "1 errors, 1 warnings, 0 notes"}) {
+                             "1 error, 1 warning, 0 notes"}) {
         EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
     }
 }

@@ -59,7 +59,8 @@ configure_file(${PROJECT_SOURCE_DIR}/cmake/halfframe.pc.in ${PROJECT_BINARY_DIR}
 install(FILES ${PROJECT_BINARY_DIR}/package/halfframe.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 
 # The library and the command hold the data files already; these are to read and to start one's own from.
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/content/budgets ${PROJECT_SOURCE_DIR}/content/devices
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/content/budgets ${PROJECT_SOURCE_DIR}/content/check
+                  ${PROJECT_SOURCE_DIR}/content/devices
         DESTINATION ${HALFFRAME_DATA_FOLDER} FILES_MATCHING PATTERN "*.json")
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md
         DESTINATION ${CMAKE_INSTALL_DOCDIR})

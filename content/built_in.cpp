@@ -1,6 +1,7 @@
 // The list of built-in scenes, and the empty one.
 #include "content/built_in.h"
 
+#include "content/charts/charts.h"
 #include "content/content.h"
 
 namespace halfframe::content {
@@ -20,6 +21,8 @@ const std::vector<BuiltInScene>& built_in_scenes() {
         {"test_room", "a small room with one of everything: textures, mask, glass, metal, and all kinds of lights",
          &make_test_room},
         {"spheres", "metals and dielectrics from rough to smooth, lit by the studio environment alone", &make_spheres},
+        {"charts", "the artists' charts: published albedos, metals, and smoothness from rough to smooth, with names",
+         &make_charts},
         {"lamps", "panels from smooth to rough under shining spheres and points: what the radius of a light does",
          &make_lamps},
         {"empty", "nothing at all: what a frame costs before anything is drawn", &make_empty},

@@ -276,12 +276,12 @@ std::string shell_quoted(const std::string& word) {
     return quoted + "'";
 }
 
-std::string options_text(const SceneOptions& options) {
+std::vector<std::string> option_words(const SceneOptions& options) {
     const SceneOptions defaults;
-    std::string text;
+    std::vector<std::string> words;
     const auto add = [&](const char* option, const std::string& value, const std::string& standard) {
         if (value != standard) {
-            text += fmt::format(" {} {}", option, shell_quoted(value));
+            words.insert(words.end(), {option, value});
         }
     };
     add("--size", options.size, defaults.size);
@@ -301,6 +301,14 @@ std::string options_text(const SceneOptions& options) {
     }
     for (const std::string& setting : options.settings) {
         add("--set", setting, "");
+    }
+    return words;
+}
+
+std::string options_text(const SceneOptions& options) {
+    std::string text;
+    for (const std::string& word : option_words(options)) {
+        text += " " + shell_quoted(word);
     }
     return text;
 }

@@ -52,6 +52,8 @@ struct OpenedScene {
 /// Error(usage) for anything in the options that can be seen to be wrong without a context or a scene.
 void check_options(const SceneOptions& options);
 
+/// {"--size", "64x64", "--tier", "low"}: the options that differ from the defaults, as a child process takes them.
+[[nodiscard]] std::vector<std::string> option_words(const SceneOptions& options);
 /// " --size 64x64 --tier low": the options that differ from the defaults, quoted for a shell.
 [[nodiscard]] std::string options_text(const SceneOptions& options);
 [[nodiscard]] std::string shell_quoted(const std::string& word);

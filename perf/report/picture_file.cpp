@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 
+#include <stb/stb_image.h>
 #include <stb/stb_image_write.h>
 #include <tinyexr.h>
 
@@ -94,6 +95,18 @@ std::vector<std::uint8_t> exr_bytes(const FloatPicture& picture) {
     std::vector<std::uint8_t> bytes(memory, memory + size);
     std::free(memory);
     return bytes;
+}
+
+Picture read_png(const std::filesystem::path& path) {
+    Picture picture;
+    int channels = 0;
+    stbi_uc* pixels = stbi_load(path.c_str(), &picture.width, &picture.height, &channels, 4);
+    if (pixels == nullptr) {
+        throw Error(Fault::input, path.string() + ": is no picture that can be read; name a .png file");
+    }
+    picture.rgba.assign(pixels, pixels + 4 * pixel_count(picture.width, picture.height));
+    stbi_image_free(pixels);
+    return picture;
 }
 
 void write_png(const std::filesystem::path& path, const Picture& picture) { write_file(path, png_bytes(picture)); }

@@ -15,6 +15,9 @@ namespace halfframe::perf {
 /// 32-bit float RGBA OpenEXR, ZIP compressed, scan lines. Values go through untouched, NaN and inf included.
 [[nodiscard]] std::vector<std::uint8_t> exr_bytes(const FloatPicture& picture);
 
+/// An 8-bit picture file as RGBA. One that is missing or broken: Error(input).
+[[nodiscard]] Picture read_png(const std::filesystem::path& path);
+
 /// The file appears whole or not at all; errors as in write_file() of perf/report/atomic_file.h.
 void write_png(const std::filesystem::path& path, const Picture& picture);
 void write_exr(const std::filesystem::path& path, const FloatPicture& picture);

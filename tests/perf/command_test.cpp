@@ -143,7 +143,9 @@ TEST(Usage, help_explains_every_option_and_the_exit_codes) {
         {"info", {"--context", "--device", "--json"}},
         {"effects", {"--json"}},
         {"scenes", {"--json"}},
-        {"accuracy", {"--json"}}};
+        {"accuracy", {"--json"}},
+        {"check", {"--thresholds", "--strict", "--json", "--sarif", "--picture", "--font", "--device", "--size"}},
+        {"contact-sheet", {"--output", "--cell", "--columns", "--tier", "--device", "--measure", "--limit", "--font"}}};
     for (const auto& [command, options] : commands) {
         const ChildResult help = halfframe({command, "--help"});
         EXPECT_EQ(help.code, 0) << command;

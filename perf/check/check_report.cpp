@@ -1,0 +1,160 @@
+// The three forms of a check's result.
+#include "perf/check/check_report.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "perf/report/text_table.h"
+
+namespace halfframe::check {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string codes(const Percentiles& p) { return fmt::format("{:.0f} {:.0f} {:.0f}", p.p5, p.p50, p.p95); }
+std::string shares(const Percentiles& p) { return fmt::format("{:.2f} {:.2f} {:.2f}", p.p5, p.p50, p.p95); }
+
+Json json_of(const Percentiles& p) { return {{"p5", p.p5}, {"p50", p.p50}, {"p95", p.p95}}; }
+
+/// The share of texels that break the worst broken rule; smoothness is only a note and does not count.
+double worst_share(const MaterialFigures& figures) {
+    return *std::max_element(figures.broken.begin(),
+                             figures.broken.begin() + static_cast<int>(RuleId::smoothness_ends));
+}
+
+std::string material_table(const Report& report) {
+    using perf::Align;
+    perf::TextTable table({{"material"},
+                           {"texels", Align::right},
+                           {"albedo", Align::right},
+                           {"specular", Align::right},
+                           {"metallic", Align::right},
+                           {"smoothness", Align::right},
+                           {"outside", Align::right}});
+    for (const MaterialFigures& each : report.materials) {
+        table.add_row({each.name, std::to_string(each.texels), codes(each.albedo), codes(each.specular),
+                       shares(each.metallic), shares(each.smoothness),
+                       each.unlit ? "unlit" : fmt::format("{:.1f} %", 100.0 * worst_share(each))});
+    }
+    return table.text() + "(albedo and specular: sRGB codes of the luminance; each at 5, 50 and 95 % of the texels)\n";
+}
+
+/// File path as a URI reference: what RFC 3986 does not leave plain is percent-encoded.
+std::string uri_of(const std::string& path) {
+    std::string uri;
+    for (const char character : path) {
+        const auto byte = static_cast<unsigned char>(character);
+        const bool plain =
+            std::isalnum(byte) != 0 || std::string_view("-._~/").find(character) != std::string_view::npos;
+        uri += plain && byte < 128 ? std::string(1, character) : fmt::format("%{:02X}", byte);
+    }
+    return path.starts_with('/') ? "file://" + uri : uri;
+}
+
+Json location_of(const Report& report, const Finding& finding) {
+    Json location = Json::object();
+    const bool is_file = !finding.place.empty();
+    if (is_file) location["physicalLocation"] = {{"artifactLocation", {{"uri", uri_of(report.scene)}}}};
+    location["logicalLocations"] = Json::array({Json{{"name", finding.thing},
+                                                     {"fullyQualifiedName", is_file ? finding.place : finding.thing},
+                                                     {"kind", "element"}}});
+    return location;
+}
+
+Json rules_sarif() {
+    Json all = Json::array();
+    for (const Rule& rule : rules()) {
+        all.push_back({{"id", rule.name},
+                       {"shortDescription", {{"text", rule.sentence}}},
+                       {"fullDescription", {{"text", fmt::format("{} Source: {}.", rule.sentence, rule.source)}}},
+                       {"help", {{"text", rule.remedy}}}});
+    }
+    return all;
+}
+
+}  // namespace
+
+std::string check_text(const Report& report) {
+    std::string text = report.materials.empty() ? "" : material_table(report);
+    for (const Finding& finding : report.findings) {
+        const Rule& broken = rule(finding.rule);
+        const std::string where = finding.place.empty() ? "" : finding.place + ", ";
+        text += "\n" + perf::wrapped(fmt::format("{} {}: {}{}: {}", name(finding.level), broken.name, where,
+                                                 finding.thing, finding.words),
+                                     112, 4);
+        text += "\n    " + perf::wrapped(broken.remedy, 108, 4) + "\n";
+    }
+    const auto counted = [&](Level level) {
+        const std::size_t count = report.count(level);
+        return fmt::format("{} {}{}", count, name(level), count == 1 ? "" : "s");
+    };
+    text += fmt::format("{}{}: {}, {}, {}\n", text.empty() ? "" : "\n", report.scene, counted(Level::error),
+                        counted(Level::warning), counted(Level::note));
+    return text;
+}
+
+Json check_json(const Report& report) {
+    Json materials = Json::array();
+    for (const MaterialFigures& each : report.materials) {
+        Json broken = Json::object();
+        for (int rule_index = 0; rule_index < kTexelRuleCount; ++rule_index) {
+            broken[rule(static_cast<RuleId>(rule_index)).name] = each.broken[static_cast<std::size_t>(rule_index)];
+        }
+        materials.push_back({{"name", each.name},
+                             {"place", each.place},
+                             {"texels", each.texels},
+                             {"unlit", each.unlit},
+                             {"albedo", json_of(each.albedo)},
+                             {"specular", json_of(each.specular)},
+                             {"metallic", json_of(each.metallic)},
+                             {"smoothness", json_of(each.smoothness)},
+                             {"share_outside", broken}});
+    }
+    Json meshes = Json::array();
+    for (const MeshFigures& each : report.meshes) {
+        meshes.push_back({{"name", each.name},
+                          {"place", each.place},
+                          {"vertices", each.vertices},
+                          {"triangles", each.triangles},
+                          {"degenerate", each.degenerate},
+                          {"unused_vertices", each.unused_vertices}});
+    }
+    Json findings = Json::array();
+    for (const Finding& finding : report.findings) {
+        const Rule& broken = rule(finding.rule);
+        findings.push_back({{"rule", broken.name},
+                            {"level", name(finding.level)},
+                            {"place", finding.place},
+                            {"thing", finding.thing},
+                            {"words", finding.words},
+                            {"remedy", broken.remedy}});
+    }
+    return {{"scene", report.scene},
+            {"device", report.device},
+            {"errors", report.count(Level::error)},
+            {"warnings", report.count(Level::warning)},
+            {"notes", report.count(Level::note)},
+            {"materials", materials},
+            {"meshes", meshes},
+            {"findings", findings}};
+}
+
+Json check_sarif(const Report& report, const std::string& version) {
+    Json results = Json::array();
+    for (const Finding& finding : report.findings) {
+        results.push_back({{"ruleId", rule(finding.rule).name},
+                           {"ruleIndex", static_cast<int>(finding.rule)},
+                           {"level", name(finding.level)},
+                           {"message", {{"text", fmt::format("{}: {}", finding.thing, finding.words)}}},
+                           {"locations", Json::array({location_of(report, finding)})}});
+    }
+    const Json driver{{"name", "halfframe"}, {"version", version}, {"rules", rules_sarif()}};
+    const Json run{{"tool", {{"driver", driver}}}, {"results", results}};
+    return {{"$schema", "https://docs.oasis-open.org/sarif/sarif/v2.1.0/os/schemas/sarif-schema-2.1.0.json"},
+            {"version", "2.1.0"},
+            {"runs", Json::array({run})}};
+}
+
+}  // namespace halfframe::check

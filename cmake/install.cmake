@@ -15,9 +15,12 @@ set(HALFFRAME_PUBLIC_HEADERS
   engine/frame/frame_plan.h
   engine/frame/image.h
   engine/frame/pass_timer.h
+  engine/frame/moving_meshes.h
+  engine/frame/pose.h
   engine/frame/renderer.h
   engine/frame/motion.h
   engine/frame/scene.h
+  engine/frame/skinning.h
   engine/frame/tier.h
   engine/frame/uploads.h
   engine/frame/vertex_layout.h

@@ -57,6 +57,12 @@ bool is_allowed(const std::string& attribute, const Format& format, bool quantiz
     if (attribute.starts_with("COLOR_")) {
         return (format.type == "VEC3" || format.type == "VEC4") && (is_float || small_unsigned_normalized);
     }
+    if (attribute.starts_with("JOINTS_")) {
+        return format.type == "VEC4" && !format.normalized && (format.component == 5121 || format.component == 5123);
+    }
+    if (attribute.starts_with("WEIGHTS_")) {
+        return format.type == "VEC4" && (is_float || small_unsigned_normalized);
+    }
     return true;
 }
 

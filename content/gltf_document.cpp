@@ -226,6 +226,7 @@ void check_gltf(GltfDocument& document) {
     check_extensions(document);
     check_gltf_data(document);
     check_gltf_scenes(document);
+    check_gltf_motion(document);
 }
 
 }  // namespace halfframe::content

@@ -48,9 +48,10 @@ struct GltfDocument {
 /// Version, extensions, and every reference, range and number that this loader relies on. Error(input) at the first
 /// fault; notices for what is legal but left out.
 void check_gltf(GltfDocument& document);
-/// The two halves of check_gltf(): buffers to materials; meshes to scenes.
+/// The parts of check_gltf(): buffers to materials; meshes to scenes; then skins, morph targets and animations.
 void check_gltf_data(const GltfDocument& document);
 void check_gltf_scenes(const GltfDocument& document);
+void check_gltf_motion(const GltfDocument& document);
 
 /// The bytes of buffers and images, in the order of the document. An image that lies in a buffer view stays empty here.
 /// So does a buffer without data, which glTF allows; it is an error only when something is read from it.

@@ -1,6 +1,7 @@
 // load_gltf(): document, checks, bytes, tinygltf, then the node tree as surfaces and cameras.
 #include "content/content.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <new>
@@ -12,8 +13,11 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "content/gltf_materials.h"
+#include "content/gltf_motion.h"
 #include "content/mesh_tools.h"
 #include "engine/error.h"
+#include "engine/frame/pose.h"
+#include "engine/frame/skinning.h"
 
 namespace halfframe::content {
 namespace {
@@ -66,19 +70,6 @@ glm::mat4 without_scale(const glm::mat4& matrix) {
     return {glm::vec4(x, 0.0f), glm::vec4(glm::cross(z, x), 0.0f), glm::vec4(z, 0.0f), matrix[3]};
 }
 
-/// Nodes that an animation moves, from the document: tinygltf is not given animations.
-std::vector<bool> animated_nodes(const JsonPlace& root) {
-    std::vector<bool> result(count_of(root, "nodes"), false);
-    for_each_object(root, "animations", [&](const JsonPlace& animation, std::size_t) {
-        for_each_object(animation, "channels", [&](const JsonPlace& channel, std::size_t) {
-            if (channel.at("target").has("node")) {
-                result[static_cast<std::size_t>(channel.at("target").at("node").whole())] = true;
-            }
-        });
-    });
-    return result;
-}
-
 class SceneBuilder {
 public:
     SceneBuilder(const GltfDocument& document, GltfModel& gltf, Scene& scene)
@@ -86,38 +77,110 @@ public:
           gltf_(gltf),
           scene_(scene),
           materials_(document, gltf, scene),
-          animated_(animated_nodes(document.root())) {}
+          moving_(moving_nodes(document.root())),
+          scene_nodes_(gltf.model.nodes.size(), -1) {}
 
+    /// Nodes first, then all that hangs on them: a skin may name joints anywhere in the tree.
     void add_nodes() {
-        struct Visit {
-            std::size_t node;
-            glm::mat4 world_from_parent;
-            bool moves;
-        };
-        std::vector<Visit> open;
-        for (const std::size_t root : root_nodes()) {
-            open.push_back({root, glm::mat4(1.0f), false});
+        walk();
+        keep_moving_nodes();
+        scene_.animations = read_animations(document_, gltf_, scene_nodes_, scene_.notices);
+        for (const Visit& visit : visits_) {
+            add_surfaces(visit);
+            add_camera(visit);
         }
-        while (!open.empty()) {  // the tree was checked: no cycles
-            const Visit visit = open.back();
-            open.pop_back();
-            const tinygltf::Node& node = gltf_.model.nodes.at(visit.node);
-            const glm::mat4 world_from_local = visit.world_from_parent * local_transform(node);
-            if (!is_finite(world_from_local)) {
-                fail(fmt::format("/nodes/{}", visit.node), "the transforms down to this node leave the range of float");
-            }
-            const bool moves = visit.moves || animated_[visit.node];
-            add_surfaces(visit.node, world_from_local, moves);
-            add_camera(visit.node, world_from_local);
-            for (auto child = node.children.rbegin(); child != node.children.rend(); ++child) {
-                open.push_back({static_cast<std::size_t>(*child), world_from_local, moves});
-            }
-        }
+        place(scene_);
+        for (std::size_t i = 0; i < scene_.surfaces.size(); ++i) expect_in_range(i);
     }
 
 private:
     [[noreturn]] void fail(const std::string& place, const std::string& what) const {
         throw Error(Fault::input, fmt::format("{}: {}: {}; {}", gltf_.source.file, place, what, gltf_.source.advice));
+    }
+
+    /// A node of the scene, parents before their children.
+    struct Visit {
+        std::size_t node;
+        int parent;  ///< in visits_; -1: none
+        glm::mat4 world_from_local;
+        bool animated;  ///< it or one above it
+        bool moves;     ///< as `animated`, or hangs on a joint
+    };
+
+    void walk() {
+        struct Open {
+            std::size_t node;
+            int parent;
+        };
+        std::vector<Open> open;
+        for (const std::size_t root : root_nodes()) open.push_back({root, -1});
+        while (!open.empty()) {  // the tree was checked: no cycles
+            const Open next = open.back();
+            open.pop_back();
+            const tinygltf::Node& node = gltf_.model.nodes.at(next.node);
+            Visit visit{next.node, next.parent, local_transform(node), moving_.animated[next.node],
+                        moving_.animated[next.node] || moving_.joint[next.node]};
+            if (next.parent >= 0) {
+                const Visit& above = visits_[static_cast<std::size_t>(next.parent)];
+                visit.world_from_local = above.world_from_local * visit.world_from_local;
+                visit.animated = visit.animated || above.animated;
+                visit.moves = visit.moves || above.moves;
+            }
+            if (!is_finite(visit.world_from_local)) {
+                fail(fmt::format("/nodes/{}", next.node), "the transforms down to this node leave the range of float");
+            }
+            visits_.push_back(visit);
+            for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
+                open.push_back({static_cast<std::size_t>(*child), static_cast<int>(visits_.size()) - 1});
+        }
+    }
+
+    /// Scene::nodes: what moves or carries morph weights, and what that hangs on.
+    void keep_moving_nodes() {
+        std::vector<bool> kept(visits_.size());
+        for (std::size_t i = visits_.size(); i-- > 0;) {
+            kept[i] = kept[i] || visits_[i].moves || moving_.morphs[visits_[i].node];
+            if (kept[i] && visits_[i].parent >= 0) kept[static_cast<std::size_t>(visits_[i].parent)] = true;
+        }
+        for (std::size_t i = 0; i < visits_.size(); ++i) {
+            if (!kept[i]) continue;
+            Node node = read_node(document_, gltf_.model.nodes[visits_[i].node], visits_[i].node);
+            if (visits_[i].parent >= 0)
+                node.parent = scene_nodes_[visits_[static_cast<std::size_t>(visits_[i].parent)].node];
+            scene_nodes_[visits_[i].node] = static_cast<int>(scene_.nodes.size());
+            scene_.nodes.push_back(std::move(node));
+        }
+    }
+
+    /// The place in Scene::nodes for what hangs on a node; -1 where that never moves.
+    int carrier(const Visit& visit) const { return visit.moves ? scene_nodes_[visit.node] : -1; }
+
+    /// Place in Scene::skins of a skin of the document, read once.
+    int skin_of(int skin) {
+        if (const auto known = skins_.find(skin); known != skins_.end()) return known->second;
+        scene_.skins.push_back(read_skin(document_, gltf_, static_cast<std::size_t>(skin), scene_nodes_));
+        return skins_[skin] = static_cast<int>(scene_.skins.size()) - 1;
+    }
+
+    /// Does the skin, in the pose of the file, turn its mesh inside out?
+    bool is_mirroring(const Skin& skin) const {
+        const auto of_joint = std::ranges::find_if(
+            visits_, [&](const Visit& visit) { return scene_nodes_[visit.node] == skin.joints.front(); });
+        return glm::determinant(glm::dmat3(of_joint->world_from_local)) *
+                   glm::determinant(glm::dmat3(skin.joint_from_mesh.front())) <
+               0.0;
+    }
+
+    void expect_known_joints(const tinygltf::Node& node, std::size_t primitive, const Mesh& mesh,
+                             const Skin& skin) const {
+        for (std::size_t i = 0; i < mesh.joints.size(); ++i) {
+            for (int k = 0; k < 4; ++k) {
+                if (mesh.joints[i][k] < skin.joints.size()) continue;
+                fail(fmt::format("/meshes/{}/primitives/{}/attributes/JOINTS_0", node.mesh, primitive),
+                     fmt::format("vertex {} follows joint {} of skin {}, which has {}", i, mesh.joints[i][k], node.skin,
+                                 skin.joints.size()));
+            }
+        }
     }
 
     /// Of the default scene, else of the first, else every node without a parent. In reverse, for a stack.
@@ -145,34 +208,43 @@ private:
         return {result.rbegin(), result.rend()};
     }
 
-    void add_surfaces(std::size_t node_index, const glm::mat4& world_from_local, bool moves) {
-        const tinygltf::Node& node = gltf_.model.nodes[node_index];
+    void add_surfaces(const Visit& visit) {
+        const tinygltf::Node& node = gltf_.model.nodes[visit.node];
         if (node.mesh < 0) {
             return;
         }
-        const glm::dmat3 axes(world_from_local);
+        const int skin = node.skin >= 0 ? skin_of(node.skin) : -1;
+        const glm::dmat3 axes(visit.world_from_local);
         const double volume = glm::determinant(axes);
         const double box = glm::length(axes[0]) * glm::length(axes[1]) * glm::length(axes[2]);
-        if (!(std::abs(volume) > kFlattest * box)) {
+        // What moves may be flat in the pose of the file and not in another.
+        if (!(std::abs(volume) > kFlattest * box) && skin < 0 && !visit.moves) {
             add_notice(
                 scene_.notices,
-                fmt::format("/nodes/{} is scaled flat, so that it has no inverse, and was left out.", node_index));
+                fmt::format("/nodes/{} is scaled flat, so that it has no inverse, and was left out.", visit.node));
             return;
         }
+        const bool mirror = skin >= 0 ? is_mirroring(scene_.skins[static_cast<std::size_t>(skin)]) : volume < 0.0;
         const auto mesh = static_cast<std::size_t>(node.mesh);
         for (std::size_t i = 0; i < gltf_.model.meshes[mesh].primitives.size(); ++i) {
-            const int scene_mesh = mesh_of(mesh, i, volume < 0.0);
+            const int scene_mesh = mesh_of(mesh, i, mirror);
             if (scene_mesh < 0) {
                 continue;
             }
+            const Mesh& drawn = scene_.meshes[static_cast<std::size_t>(scene_mesh)];
+            if (skin >= 0) {
+                expect_known_joints(node, i, drawn, scene_.skins[static_cast<std::size_t>(skin)]);
+            }
             Surface surface;
-            surface.name = node.name.empty() ? scene_.meshes[static_cast<std::size_t>(scene_mesh)].name : node.name;
+            surface.name = node.name.empty() ? drawn.name : node.name;
             surface.mesh = scene_mesh;
             surface.material = materials_.scene_material(gltf_.model.meshes[mesh].primitives[i].material);
-            surface.world_from_local = world_from_local;
-            surface.dynamic = moves || node.skin >= 0;
-            expect_in_range(node_index, surface);
+            surface.world_from_local = visit.world_from_local;
+            surface.dynamic = visit.animated || skin >= 0;
+            surface.skin = skin;
+            surface.node = drawn.morph_targets.empty() ? carrier(visit) : scene_nodes_[visit.node];
             scene_.surfaces.push_back(std::move(surface));
+            nodes_of_surfaces_.push_back(visit.node);
         }
     }
 
@@ -197,18 +269,23 @@ private:
         return result;
     }
 
-    void expect_in_range(std::size_t node, const Surface& surface) const {
-        const Box box = world_box(boxes_[static_cast<std::size_t>(surface.mesh)], surface.world_from_local);
+    void expect_in_range(std::size_t surface) const {
+        const Surface& drawn = scene_.surfaces[surface];
+        const Box box = world_box(changes_shape(scene_, drawn) ? posed_box(scene_, static_cast<int>(surface))
+                                                               : boxes_[static_cast<std::size_t>(drawn.mesh)],
+                                  drawn.world_from_local);
+        if (box.empty()) return;
         for (int axis = 0; axis < 3; ++axis) {
             if (!(std::abs(box.low[axis]) <= kLargestCoordinate_m) ||
                 !(std::abs(box.high[axis]) <= kLargestCoordinate_m)) {
-                fail(fmt::format("/nodes/{}", node), fmt::format("its mesh reaches beyond {} m", kLargestCoordinate_m));
+                fail(fmt::format("/nodes/{}", nodes_of_surfaces_[surface]),
+                     fmt::format("its mesh reaches beyond {} m", kLargestCoordinate_m));
             }
         }
     }
 
-    void add_camera(std::size_t node_index, const glm::mat4& world_from_local) {
-        const tinygltf::Node& node = gltf_.model.nodes[node_index];
+    void add_camera(const Visit& visit) {
+        const tinygltf::Node& node = gltf_.model.nodes[visit.node];
         if (node.camera < 0) {
             return;
         }
@@ -217,7 +294,8 @@ private:
         camera.name = !source.name.empty() ? source.name
                       : !node.name.empty() ? node.name
                                            : fmt::format("camera {}", scene_.cameras.size());
-        camera.world_from_view = without_scale(world_from_local);
+        camera.world_from_view = without_scale(visit.world_from_local);
+        camera.node = carrier(visit);
         camera.orthographic = source.type == "orthographic";
         if (camera.orthographic) {
             camera.half_height_m = static_cast<float>(std::abs(source.orthographic.ymag));
@@ -236,27 +314,15 @@ private:
     GltfModel& gltf_;
     Scene& scene_;
     GltfMaterials materials_;
-    std::vector<bool> animated_;
+    MovingNodes moving_;
+    std::vector<int> scene_nodes_;  ///< place in Scene::nodes of each node of the document; -1: none
+    std::vector<Visit> visits_;
+    std::map<int, int> skins_;
     std::map<std::tuple<std::size_t, std::size_t, bool>, int> meshes_;
-    std::vector<Box> boxes_;  ///< of Scene::meshes
+    std::vector<Box> boxes_;                      ///< of Scene::meshes, as they are
+    std::vector<std::size_t> nodes_of_surfaces_;  ///< of the document
     ReadSoFar so_far_;
 };
-
-void add_content_notices(const JsonPlace& root, std::vector<std::string>& notices) {
-    if (count_of(root, "animations") > 0) {
-        add_notice(notices, "Animations are not played: the nodes stand as the file has them.");
-    }
-    if (count_of(root, "skins") > 0) {
-        add_notice(notices, "Skins are not applied: skinned meshes are drawn in their bind pose.");
-    }
-    for_each_object(root, "meshes", [&](const JsonPlace& mesh, std::size_t) {
-        for_each_object(mesh, "primitives", [&](const JsonPlace& primitive, std::size_t) {
-            if (primitive.has("targets")) {
-                add_notice(notices, "Morph targets are not applied: meshes are drawn in their base shape.");
-            }
-        });
-    });
-}
 
 Scene load_checked(const std::filesystem::path& file) {
     GltfDocument document = read_gltf_document(file);
@@ -267,7 +333,6 @@ Scene load_checked(const std::filesystem::path& file) {
     Scene scene;
     scene.name = file.stem().string();
     scene.notices = document.notices;
-    add_content_notices(document.root(), scene.notices);
     SceneBuilder(document, gltf, scene).add_nodes();
     if (scene.surfaces.empty()) {
         add_notice(scene.notices, "There is nothing to draw in the scene.");

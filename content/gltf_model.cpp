@@ -107,7 +107,6 @@ void drop_extensions(json& value) {
     if (value.is_object()) {
         value.erase("extensions");
         value.erase("extras");
-        value.erase("targets");
     }
     if (value.is_structured()) {
         for (json& child : value) {

@@ -38,6 +38,9 @@ struct GltfModel {
 template <typename T>
 [[nodiscard]] std::vector<T> read_elements(const GltfModel& gltf, int accessor);
 [[nodiscard]] std::vector<std::uint32_t> read_indices(const GltfModel& gltf, int accessor);
+/// All components of all elements one after the other, normalized integers as above. Not for MAT2 and MAT3 of small
+/// integers, whose columns are padded.
+[[nodiscard]] std::vector<float> read_floats(const GltfModel& gltf, int accessor);
 
 /// What a primitive needs from its material.
 struct PrimitiveNeeds {

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "content/gltf_motion.h"
 #include "content/mesh_tools.h"
 #include "engine/error.h"
 
@@ -274,6 +275,21 @@ std::vector<std::uint32_t> read_indices(const GltfModel& gltf, int index) {
     return result;
 }
 
+std::vector<float> read_floats(const GltfModel& gltf, int index) {
+    const tinygltf::Accessor& accessor = gltf.model.accessors.at(static_cast<std::size_t>(index));
+    const auto bytes_each =
+        static_cast<std::size_t>(tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(accessor.componentType)));
+    const auto components =
+        static_cast<std::size_t>(tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type)));
+    std::vector<float> result(accessor.count * components, 0.0f);
+    for_each_element(gltf, index, [&](std::size_t element, const unsigned char* bytes) {
+        for (std::size_t i = 0; i < components; ++i)
+            result[element * components + i] =
+                component_as_float(bytes + i * bytes_each, accessor.componentType, accessor.normalized);
+    });
+    return result;
+}
+
 std::optional<Mesh> read_primitive(const GltfModel& gltf, std::size_t mesh_index, std::size_t primitive_index,
                                    const PrimitiveNeeds& needs, ReadSoFar& so_far, std::vector<std::string>& notices) {
     const tinygltf::Mesh& source = gltf.model.meshes.at(mesh_index);
@@ -288,6 +304,7 @@ std::optional<Mesh> read_primitive(const GltfModel& gltf, std::size_t mesh_index
     mesh.name = source.name.empty() ? fmt::format("mesh {}", mesh_index) : source.name;
     mesh.primitive = primitive_of(primitive.mode);
     read_streams(gltf, primitive, place, needs.uv_set, mesh, notices);
+    read_moving_streams(gltf, primitive, place, mesh, so_far, notices);
     read_checked_indices(gltf, primitive, place, mesh);
     if (!keep_complete(mesh, place, notices)) {
         return std::nullopt;

@@ -47,6 +47,27 @@ Stream gathered(const Stream& stream, const std::vector<std::uint32_t>& indices)
     return result;
 }
 
+/// The morph targets of `mesh` for its faces, three vertices each. A target's normals become what it changes the faces'
+/// normals by: right at weight 0 and, alone, at weight 1.
+std::vector<MorphTarget> flat_targets(const Mesh& mesh, const std::vector<std::uint32_t>& list,
+                                      const std::vector<glm::vec3>& normals) {
+    std::vector<MorphTarget> result;
+    for (const MorphTarget& target : mesh.morph_targets) {
+        MorphTarget flat{
+            .name = target.name, .positions = gathered(target.positions, list), .normals = {}, .tangents = {}};
+        Mesh moved;
+        moved.positions = mesh.positions;
+        for (std::size_t i = 0; i < target.positions.size(); ++i) moved.positions[i] += target.positions[i];
+        for (std::size_t i = 0; i + 2 < list.size() && !target.positions.empty(); i += 3) {
+            const glm::vec3 normal =
+                unit_or(face_normal_times_area(moved, list[i], list[i + 1], list[i + 2]), normals[i]);
+            flat.normals.insert(flat.normals.end(), 3, normal - normals[i]);
+        }
+        result.push_back(std::move(flat));
+    }
+    return result;
+}
+
 }  // namespace
 
 bool has_faces(Primitive primitive) {
@@ -90,12 +111,15 @@ Mesh flat_shaded(const Mesh& mesh) {
     result.positions = gathered(mesh.positions, list);
     result.uv = gathered(mesh.uv, list);
     result.colors = gathered(mesh.colors, list);
+    result.joints = gathered(mesh.joints, list);
+    result.weights = gathered(mesh.weights, list);
     result.normals.reserve(list.size());
     for (std::size_t i = 0; i + 2 < list.size(); i += 3) {
         const glm::vec3 normal =
             unit_or(face_normal_times_area(mesh, list[i], list[i + 1], list[i + 2]), glm::vec3(0.0f, 1.0f, 0.0f));
         result.normals.insert(result.normals.end(), 3, normal);
     }
+    result.morph_targets = flat_targets(mesh, list, result.normals);
     return result;
 }
 

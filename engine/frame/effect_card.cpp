@@ -59,6 +59,11 @@ gl::ProgramDescription describe_variant(const EffectCard& card, const ShaderVari
     }
     description.attributes = {
         {"position", kPosition}, {"normal", kNormal}, {"tangent", kTangent}, {"uv", kUv}, {"color", kColor}};
+    // Named only where they are read, so that the calls of every other program stay what they are.
+    if (std::ranges::any_of(defines, [](std::string_view define) { return define.starts_with("SKIN_"); })) {
+        description.attributes.emplace_back("joints", kJoints);
+        description.attributes.emplace_back("weights", kWeights);
+    }
     return description;
 }
 

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "engine/error.h"
+#include "shaders_es/common/mesh_vertex_limits.h"
 
 namespace halfframe {
 
@@ -16,6 +17,7 @@ namespace {
 
 constexpr std::uint32_t kContextLost = 0x0507;  // GL_CONTEXT_LOST, ES 3.2 and KHR_robustness
 constexpr int kTextureUnits = 8;                // the ES 2.0 minimum: no effect may use more
+constexpr int kTrackedUnits = kJointUnit + 1;   // above them ES 3.0 has one for joint palettes
 
 const char* error_name(std::uint32_t error) {
     switch (error) {
@@ -91,7 +93,7 @@ struct Renderer::Targets {
 /// GL state as we last set it, so that nothing is set twice.
 struct Renderer::State {
     std::uint32_t program = 0;
-    std::array<std::uint32_t, kTextureUnits> textures{};
+    std::array<std::uint32_t, kTrackedUnits> textures{};
     int active_unit = -1;
     int depth_test = -1, depth_write = -1, cull = -1, blend = -1, color_mask = -1;
     Blend blend_kind = Blend::none;
@@ -184,6 +186,7 @@ void Renderer::prepare(const Scene& scene, const FramePlan& plan) {
     adoptions_.clear();
     targets_ = std::make_unique<Targets>();
     *state_ = {};
+    moving_.reset();
     meshes_.clear();
     notices_.clear();
     textures_ = std::make_unique<TextureStore>(gl_, caps_);
@@ -199,6 +202,13 @@ void Renderer::prepare(const Scene& scene, const FramePlan& plan) {
     }
     allocate_targets();
     for (const Mesh& mesh : scene.meshes) meshes_.push_back(upload_mesh(gl_, caps_, mesh));
+    // Surfaces choose the dialect: every effect that draws them has their tier, or one of the same language.
+    const bool low = plan_.tier == Tier::low || std::ranges::any_of(plan_.effects, [](const EffectDecision& decision) {
+                         return decision.in && decision.tier == Tier::low;
+                     });
+    moving_ = std::make_unique<MovingMeshes>(gl_, caps_, scene, meshes_, low, description_.skinning);
+    if (moving_->empty()) moving_.reset();
+    else if (const std::string sentence = moving_->notice(); !sentence.empty()) notices_.push_back(sentence);
     make_works();
     if (const std::uint32_t error = gl_.GetError(); error != GL_NO_ERROR) {
         throw Error(Fault::context,
@@ -319,6 +329,7 @@ void Renderer::draw_passes(const View& view, PassTimer* timer) {
     *state_ = {};  // the host may have used the context since the last frame
     view_ = &view;
     set_known_state(gl_, caps_);
+    update_moving_meshes();
     if (timer) timer->begin_frame();
     for (std::size_t i = 0; i < plan_.passes.size(); ++i) {
         const Pass& pass = plan_.passes[i];
@@ -333,6 +344,15 @@ void Renderer::draw_passes(const View& view, PassTimer* timer) {
     if (timer) timer->end_frame();
     view_ = nullptr;
     finish_frame();
+}
+
+void Renderer::update_moving_meshes() {
+    if (!moving_) return;
+    if (moving_->writes_textures()) {
+        set_known_transfer_state(gl_, caps_);
+        gl_.BindSampler(kJointUnit, 0);
+    }
+    moving_->update(*scene_);
 }
 
 void Renderer::begin(const Pass& pass, std::uint32_t framebuffer) {
@@ -555,12 +575,57 @@ void Renderer::draw_mesh(const DrawMesh& mesh) {
             set_vertex_layout(gl_);
             if (part.indices) gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, part.indices.name());
         }
-        if (part.indices) {
-            gl_.DrawElements(mesh.mode, part.count, part.index_type, nullptr);
-        } else {
-            gl_.DrawArrays(mesh.mode, 0, part.count);
-        }
+        draw_part(mesh, part);
     }
+}
+
+void Renderer::draw_part(const DrawMesh& mesh, const DrawPart& part) {
+    if (part.indices) {
+        gl_.DrawElements(mesh.mode, part.count, part.index_type, nullptr);
+    } else {
+        gl_.DrawArrays(mesh.mode, 0, part.count);
+    }
+}
+
+void Renderer::draw_surface(int surface, int skin_location) {
+    const DrawMesh& drawn = mesh(scene_->surfaces[static_cast<std::size_t>(surface)].mesh);
+    const MovingMeshes::Moving* moving = moving_ ? moving_->find(surface) : nullptr;
+    if (moving == nullptr) return draw_mesh(drawn);
+    if (moving->skinned && moving->way == Skinning::texture) bind_texture(kJointUnit, moving->palette_texture.name());
+    if (moving->skinned && moving->way == Skinning::uniforms && skin_location >= 0)
+        gl_.Uniform4fv(skin_location, static_cast<GLsizei>(3 * moving->palette.size()), &moving->palette[0][0].x);
+    for (std::size_t part = 0; part < drawn.parts.size(); ++part) {
+        const std::uint32_t array = moving_->bind(*moving, drawn, part);
+        if (array != 0 && state_->array != array) gl_.BindVertexArray(array);
+        state_->array = array != 0 ? array : state_->array;
+        draw_part(drawn, drawn.parts[part]);
+        if (array != 0) continue;
+        moving_->release_loose_arrays();
+        state_->vertex_buffer = ~0u;
+    }
+}
+
+const Box& Renderer::box(int surface) const {
+    const MovingMeshes::Moving* moving = moving_ ? moving_->find(surface) : nullptr;
+    return moving != nullptr ? moving->box : mesh(scene_->surfaces[static_cast<std::size_t>(surface)].mesh).box;
+}
+
+std::uint32_t Renderer::shape(int surface) const {
+    const MovingMeshes::Moving* moving = moving_ ? moving_->find(surface) : nullptr;
+    return moving != nullptr ? moving->shape : 0;
+}
+
+std::string_view Renderer::skin_define(int surface) const {
+    const MovingMeshes::Moving* moving = moving_ ? moving_->find(surface) : nullptr;
+    if (moving == nullptr || !moving->skinned || moving->way == Skinning::cpu) return {};
+    if (moving->way == Skinning::texture) return "SKIN_TEXTURE";
+    return moving->palette.size() <= JOINTS_SMALL ? "SKIN_SMALL" : "SKIN_LARGE";
+}
+
+int Renderer::claim_skin(gl::Program& program) {
+    use(program);
+    if (const int map = program.uniform_if_used("joint_map"); map >= 0) gl_.Uniform1i(map, kJointUnit);
+    return program.uniform_if_used("joint_palette");
 }
 
 void Renderer::set_depth(bool test, bool write, std::uint32_t function) {

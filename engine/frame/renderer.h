@@ -11,6 +11,7 @@
 #include "engine/error.h"
 #include "engine/frame/frame_plan.h"
 #include "engine/frame/image.h"
+#include "engine/frame/moving_meshes.h"
 #include "engine/frame/pass_timer.h"
 #include "engine/frame/scene.h"
 #include "engine/frame/uploads.h"
@@ -24,6 +25,7 @@ namespace halfframe {
 struct RendererDescription {
     std::filesystem::path program_cache_folder;  ///< empty: program binaries are not kept on disk
     std::span<const EffectCard* const> effects = all_effects();
+    std::optional<Skinning> skinning;  ///< empty: of each mesh the first way that the device can do
 };
 
 /// Counts of non-finite values in one target.
@@ -54,6 +56,7 @@ enum TextureUnit : int {
     kRoughReflectionUnit = 5,
     kShadowUnit = 6,
     kBloomUnit = 7,
+    kJointUnit = 15,  ///< joint palettes of the vertex stage; ES 3.0 only, which has 32
 };
 
 class Renderer {
@@ -93,6 +96,15 @@ public:
     [[nodiscard]] const FramePlan& plan() const { return plan_; }
     [[nodiscard]] const Scene& scene() const { return *scene_; }
     [[nodiscard]] const DrawMesh& mesh(int index) const { return meshes_[static_cast<std::size_t>(index)]; }
+    /// Box of a surface in this frame's pose, relative to its world_from_local [m].
+    [[nodiscard]] const Box& box(int surface) const;
+    /// A number that changes with the shape of a surface: with its joints and morph weights, not with its place.
+    [[nodiscard]] std::uint32_t shape(int surface) const;
+    /// The define that a program needs to draw `surface`: SKIN_SMALL, SKIN_LARGE, SKIN_TEXTURE, or empty.
+    [[nodiscard]] std::string_view skin_define(int surface) const;
+    /// Claims what a program made with that define reads; returns the location for draw_surface(). `program` is current
+    /// afterwards.
+    int claim_skin(gl::Program& program);
     /// Device texture of a scene texture, uploaded once. `decoded`: sRGB is decoded on fetch (ES 3.0); else the shader
     /// gets the bytes as they are.
     [[nodiscard]] std::uint32_t texture(const Texture& texture, bool decoded);
@@ -118,6 +130,8 @@ public:
     void resolve(int from_target, int to_target);
     void draw_full_screen();  ///< one triangle over the target; attribute kPosition is the clip position (vec2)
     void draw_mesh(const DrawMesh& mesh);
+    /// Draws a surface as its pose has it, with a program made with its skin_define().
+    void draw_surface(int surface, int skin_location);
     void set_depth(bool test, bool write, std::uint32_t function);
     void set_cull(bool on);
     void set_blend(Blend blend);
@@ -134,6 +148,8 @@ private:
     void adopt_insertions(const std::string& prefix, gl::Program& program);
     void begin(const Pass& pass, std::uint32_t framebuffer);
     void finish_frame();
+    void draw_part(const DrawMesh& mesh, const DrawPart& part);
+    void update_moving_meshes();
     void draw_passes(const View& view, PassTimer* timer);
 
     gl::EntryPoints& gl_;
@@ -146,6 +162,7 @@ private:
     std::unique_ptr<Targets> targets_;
     std::unique_ptr<State> state_;
     std::unique_ptr<TextureStore> textures_;
+    std::unique_ptr<MovingMeshes> moving_;  ///< nothing while the scene has nothing that changes its shape
     struct Work {
         std::string effect;
         std::unique_ptr<EffectWork> work;

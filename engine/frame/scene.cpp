@@ -8,6 +8,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "engine/error.h"
+#include "engine/frame/skinning.h"
 
 namespace halfframe {
 namespace {
@@ -107,8 +108,12 @@ Box world_box(const Scene& scene) {
     std::transform(scene.meshes.begin(), scene.meshes.end(), local.begin(),
                    [](const Mesh& mesh) { return local_box(mesh); });
     Box box;
-    for (const Surface& surface : scene.surfaces) {
-        const Box world = world_box(local.at(static_cast<std::size_t>(surface.mesh)), surface.world_from_local);
+    for (std::size_t i = 0; i < scene.surfaces.size(); ++i) {
+        const Surface& surface = scene.surfaces[i];
+        const bool moves = changes_shape(scene, surface);
+        const Box world =
+            world_box(moves ? posed_box(scene, static_cast<int>(i)) : local.at(static_cast<std::size_t>(surface.mesh)),
+                      surface.world_from_local);
         if (!world.empty()) {
             box.add(world.low);
             box.add(world.high);

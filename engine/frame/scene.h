@@ -116,7 +116,7 @@ struct Surface {
     glm::mat4 world_from_local{1.0f};
     bool dynamic = false;  ///< moves: characters, doors
     int node = -1;         ///< index in Scene::nodes that carries it; -1: stays where it is
-    int skin = -1;         ///< index in Scene::skins; then `world_from_local` is not used
+    int skin = -1;         ///< index in Scene::skins; then any `world_from_local` near by draws the same: see pose.h
 };
 
 enum class LightKind : std::uint8_t { sun, point, spot };

@@ -90,6 +90,8 @@ DrawPart upload_piece(gl::EntryPoints& gl, const gl::Caps& caps, const MeshPiece
     gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(piece.vertices.size() * sizeof(PackedVertex)),
                   piece.vertices.data(), GL_STATIC_DRAW);
     part.count = static_cast<int>(piece.vertices.size());
+    part.vertex_count = part.count;
+    part.sources = piece.sources;
     if (!piece.indices.empty()) {
         part.indices = gl::create<gl::Kind::buffer>(gl);
         part.count = static_cast<int>(piece.indices.size());
@@ -170,7 +172,7 @@ bool is_power_of_two(int x) { return std::has_single_bit(static_cast<unsigned>(x
 std::vector<MeshPiece> packed_pieces(const Mesh& mesh, std::size_t max_vertices) {
     std::vector<MeshPiece> pieces;
     if (mesh.positions.size() <= max_vertices) {
-        MeshPiece whole{.primitive = mesh.primitive, .vertices = {}, .indices = mesh.indices};
+        MeshPiece whole{.primitive = mesh.primitive, .vertices = {}, .indices = mesh.indices, .sources = {}};
         whole.vertices.reserve(mesh.positions.size());
         for (std::size_t i = 0; i < mesh.positions.size(); ++i) whole.vertices.push_back(packed_vertex(mesh, i));
         pieces.push_back(std::move(whole));
@@ -185,7 +187,7 @@ std::vector<MeshPiece> packed_pieces(const Mesh& mesh, std::size_t max_vertices)
     std::unordered_map<std::uint32_t, std::uint32_t> local;
     for (std::size_t i = 0; i + list.corners <= list.indices.size(); i += list.corners) {
         if (pieces.empty() || pieces.back().vertices.size() + list.corners > max_vertices) {
-            pieces.push_back({.primitive = list.primitive, .vertices = {}, .indices = {}});
+            pieces.push_back({.primitive = list.primitive, .vertices = {}, .indices = {}, .sources = {}});
             local.clear();
         }
         MeshPiece& piece = pieces.back();
@@ -193,6 +195,7 @@ std::vector<MeshPiece> packed_pieces(const Mesh& mesh, std::size_t max_vertices)
             const std::uint32_t index = list.indices[i + corner];
             const auto [found, added] = local.try_emplace(index, static_cast<std::uint32_t>(piece.vertices.size()));
             if (added) piece.vertices.push_back(packed_vertex(mesh, index));
+            if (added) piece.sources.push_back(index);
             piece.indices.push_back(found->second);
         }
     }

@@ -20,6 +20,8 @@ struct DrawPart {
     gl::VertexArray array;  ///< empty where the device has none
     std::uint32_t index_type = 0;
     int count = 0;  ///< indices, or vertices without them
+    int vertex_count = 0;
+    std::vector<std::uint32_t> sources;  ///< vertex of the mesh behind each of the part's; empty: the same
 };
 
 /// The mesh of a scene on the device.
@@ -37,6 +39,7 @@ struct MeshPiece {
     Primitive primitive = Primitive::triangles;
     std::vector<PackedVertex> vertices;
     std::vector<std::uint32_t> indices;
+    std::vector<std::uint32_t> sources;  ///< vertex of the mesh behind each; empty: the same
 };
 
 /// `mesh` packed, in pieces of at most `max_vertices` vertices (65536 where indices are 16-bit). Strips, fans and loops

@@ -81,11 +81,13 @@ Scene wall_with_a_light_a_tile(float range_m) {
 /// Lights that an object of the scene is drawn with, on average.
 double lights_per_object(const Scene& scene) {
     double sum = 0.0;
+    std::vector<int> lights;
     for (const Surface& surface : scene.surfaces) {
         int left_out = 0;
         const Box box =
             world_box(local_box(scene.meshes[static_cast<std::size_t>(surface.mesh)]), surface.world_from_local);
-        sum += static_cast<double>(lights_reaching(scene, box, SURFACE_LIGHT_LIMIT, left_out).size());
+        lights_reaching(scene, box, SURFACE_LIGHT_LIMIT, lights, left_out);
+        sum += static_cast<double>(lights.size());
     }
     return sum / static_cast<double>(scene.surfaces.size());
 }

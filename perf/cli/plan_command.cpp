@@ -1,4 +1,5 @@
 // halfframe plan SCENE: the frame as data, without drawing it.
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
@@ -8,6 +9,7 @@
 #include "perf/cli/terminal.h"
 #include "perf/report/json_report.h"
 #include "perf/report/text_report.h"
+#include "perf/report/text_table.h"
 
 namespace halfframe::cli {
 namespace {
@@ -50,15 +52,32 @@ public:
             nlohmann::ordered_json json = perf::plan_json(plan);
             json["device"] = device.caps().device;
             json["renderer"] = device.caps().renderer;
+            json["animations"] = nlohmann::ordered_json::array();
+            for (const Animation& animation : opened.scene.animations) {
+                json["animations"].push_back({{"name", animation.name}, {"duration_s", animation.duration_s}});
+            }
             json["broken_rule"] = broken ? nlohmann::ordered_json(*broken) : nlohmann::ordered_json(nullptr);
             print_json(json);
         } else {
-            print(perf::plan_text(plan) + "\n" + (broken ? "broken rule: " + *broken : "no rule is broken") + "\n");
+            print(perf::plan_text(plan) + "\n" + animations_text(opened.scene) +
+                  (broken ? "broken rule: " + *broken : "no rule is broken") + "\n");
         }
         return broken ? 1 : 0;
     }
 
 private:
+    static std::string animations_text(const Scene& scene) {
+        if (scene.animations.empty()) {
+            return {};
+        }
+        perf::TextTable table({{"animation"}, {"name"}, {"s"}});
+        for (std::size_t i = 0; i < scene.animations.size(); ++i) {
+            table.add_row(
+                {std::to_string(i), scene.animations[i].name, fmt::format("{:.3f}", scene.animations[i].duration_s)});
+        }
+        return table.text() + "\n";
+    }
+
     std::string scene_;
     SceneOptions options_;
     bool json_ = false;

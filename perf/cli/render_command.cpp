@@ -9,6 +9,7 @@
 #include "engine/error.h"
 #include "perf/cli/command.h"
 #include "perf/cli/drawing.h"
+#include "perf/cli/picture_row.h"
 #include "perf/report/atomic_file.h"
 #include "perf/report/html_page.h"
 #include "perf/report/json_report.h"
@@ -38,6 +39,17 @@ public:
         command.add_flag("--ledger", ledger_,
                          "Print the GL calls of preparing and of one frame by pass; without the program cache");
         command.add_option("--html", html_, "Also write one self-contained HTML page")->type_name("FILE");
+        command
+            .add_option(
+                "--frames", frames_,
+                "Draw a row of so many pictures, 1 to 100000, each 1 / --fps later than the one before: FILE is "
+                "numbered, out.png gives out_0000.png and so on. Nothing is timed, and no table printed")
+            ->type_name("N")
+            ->check(CLI::Range(1, 100000).description(""));
+        command.add_option("--fps", fps_, "Pictures a second of --frames, above 0")
+            ->type_name("F")
+            ->capture_default_str()
+            ->needs("--frames");
         command.footer(kExitCodes);
     }
 
@@ -47,6 +59,9 @@ public:
         check_options(options_);
         check_outputs();
         Progress progress;
+        if (frames_) {
+            return draw_pictures(progress);
+        }
         perf::DrawRequest request = draw_request(options_, drawing_, progress);
         request.between("starting");
         request.trace = !trace_.empty();
@@ -69,12 +84,46 @@ public:
     }
 
 private:
+    int draw_pictures(Progress& progress) const {
+        GraphicsDevice device(options_.device);
+        SceneOptions options = options_;
+        if (!options.time_s) {
+            options.time_s = 0.0;  // a row of rest poses would be a row of one picture
+        }
+        const std::vector<std::string> files = draw_row(device, scene_, options, {*frames_, fps_}, output_, progress);
+        if (drawing_.json) {
+            print_json({{"scene", scene_}, {"fps", fps_}, {"pictures", files}});
+        } else {
+            print(fmt::format("{} pictures: {} to {}\n", files.size(), files.front(), files.back()));
+        }
+        return 0;
+    }
+
+    void check_row() const {
+        if (!(fps_ > 0.0 && fps_ <= 10000.0)) {
+            throw Error(Fault::usage, fmt::format("--fps {}: above 0 and at most 10000", fps_));
+        }
+        if (!output_.ends_with(".png")) {
+            throw Error(Fault::usage, "--frames needs -o FILE.png, from which the pictures get their names");
+        }
+        if (!trace_.empty() || !html_.empty() || ledger_ || drawing_.census) {
+            throw Error(Fault::usage,
+                        "--frames draws pictures alone: leave out --trace, --ledger, --html and --census, or choose "
+                        "one moment with --time");
+        }
+        perf::expect_can_write(numbered(output_, 0));
+    }
+
     [[nodiscard]] bool wants_exr() const { return output_.ends_with(".exr"); }
 
     /// Before minutes of drawing: can all that was asked for be written?
     void check_outputs() const {
         if (!output_.empty() && !wants_exr() && !output_.ends_with(".png")) {
             throw Error(Fault::usage, fmt::format("-o {}: the name must end in .png or .exr", output_));
+        }
+        if (frames_) {
+            check_row();
+            return;
         }
         std::set<std::filesystem::path> seen;
         for (const std::string& file : {output_, trace_, html_}) {
@@ -128,6 +177,8 @@ private:
     std::string trace_;
     std::string html_;
     bool ledger_ = false;
+    std::optional<int> frames_;
+    double fps_ = 30.0;
 };
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "content/content.h"
 #include "engine/error.h"
 #include "engine/frame/effect_card.h"
+#include "engine/frame/pose.h"
 #include "perf/cli/cache_folder.h"
 #include "perf/cli/scene_light.h"
 #include "perf/cli/scene_settings.h"
@@ -131,9 +132,51 @@ const Camera& camera_named(const Scene& scene, const std::string& wished) {
     throw Error(Fault::usage, unknown("camera", wished, names));
 }
 
-Camera choose_camera(Scene& scene, const SceneOptions& options, const Size& size) {
+/// The animation that the options play; -1: none, the rest pose.
+int chosen_animation(const Scene& scene, const SceneOptions& options) {
+    if (options.animation.empty() && !options.time_s) return -1;
+    if (scene.animations.empty()) {
+        throw Error(Fault::usage, fmt::format("{}: this scene has no animation; leave it out",
+                                              options.animation.empty() ? "--time" : "--animation"));
+    }
+    if (options.animation.empty()) return 0;
+    std::vector<std::string> names;
+    for (std::size_t index = 0; index < scene.animations.size(); ++index) {
+        if (scene.animations[index].name == options.animation) return static_cast<int>(index);
+        names.push_back(scene.animations[index].name);
+    }
+    int number = 0;
+    const char* end = options.animation.data() + options.animation.size();
+    const auto [stop, error] = std::from_chars(options.animation.data(), end, number);
+    if (error == std::errc() && stop == end && number >= 0 && static_cast<std::size_t>(number) < names.size())
+        return number;
+    throw Error(Fault::usage, unknown("animation", options.animation, names));
+}
+
+/// Poses the scene as the options say and returns the box of all frames together [m].
+Box posed_for(OpenedScene& opened, const SceneOptions& options, const Sequence& sequence) {
+    Scene& scene = opened.scene;
+    opened.animation = chosen_animation(scene, options);
+    if (opened.animation < 0) return world_box(scene);
+    // As many poses as tell a course from a still; between two of them nothing goes far.
+    constexpr int kMostPoses = 32;
+    Animator animator(scene);
+    Box box;
+    const int poses = std::min(sequence.frames, kMostPoses);
+    for (int pose = poses - 1; pose >= 0; --pose) {
+        const int frame = poses == 1 ? 0 : pose * (sequence.frames - 1) / (poses - 1);
+        animator.pose(scene, opened.animation, options.time_s.value_or(0.0) + frame / sequence.fps);
+        const Box here = world_box(scene);
+        if (here.empty()) continue;
+        box.add(here.low);
+        box.add(here.high);
+    }
+    return box;
+}
+
+Camera choose_camera(OpenedScene& opened, const SceneOptions& options, const Size& size, const Box& box) {
+    Scene& scene = opened.scene;
     const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
-    const Box box = world_box(scene);
     const float fov_y_rad =
         options.fov_y_deg ? static_cast<float>(*options.fov_y_deg) * kRadiansPerDegree : kFramedFovYRad;
     if (!options.eye.empty()) {
@@ -145,7 +188,9 @@ Camera choose_camera(Scene& scene, const SceneOptions& options, const Size& size
         scene.notices.push_back("the scene brings no camera, so it is framed whole; --eye and --target choose a view");
         return camera_framing(box, aspect, fov_y_rad);
     }
-    Camera camera = options.camera.empty() ? scene.cameras.front() : camera_named(scene, options.camera);
+    const Camera& chosen = options.camera.empty() ? scene.cameras.front() : camera_named(scene, options.camera);
+    opened.camera = static_cast<int>(&chosen - scene.cameras.data());
+    Camera camera = chosen;
     if (options.fov_y_deg) {
         camera.fov_y_rad = fov_y_rad;
     }
@@ -202,6 +247,16 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
         ->type_name("X,Y,Z")
         ->needs(eye);
     command
+        .add_option("--time", options.time_s,
+                    "Show the scene as its animation has it at this time [s], which may lie past its end: it is played "
+                    "round and round. Default: the rest pose, or 0 with --animation")
+        ->type_name("S");
+    command
+        .add_option("--animation", options.animation,
+                    "The animation that is played, by name, or by number from 0 (halfframe plan lists them). Default: "
+                    "the first, if --time is given")
+        ->type_name("NAME|N");
+    command
         .add_option("--fov-y", options.fov_y_deg,
                     "Vertical field of view [degrees], above 0 and below 180. Default: the camera's, else 40")
         ->type_name("DEG");
@@ -230,6 +285,9 @@ void check_options(const SceneOptions& options) {
                                     options.target, away > 1.0f ? "too far apart" : "the same point"));
         }
     }
+    if (options.time_s && !std::isfinite(*options.time_s)) {
+        throw Error(Fault::usage, fmt::format("--time {}: not a finite number of seconds", *options.time_s));
+    }
     if (options.fov_y_deg && !(*options.fov_y_deg >= 0.1 && *options.fov_y_deg <= 179.0)) {
         throw Error(Fault::usage, fmt::format("--fov-y {}: degrees from 0.1 to 179", *options.fov_y_deg));
     }
@@ -242,7 +300,7 @@ void check_options(const SceneOptions& options) {
 }
 
 OpenedScene open_with_options(const std::string& scene, const SceneOptions& options, const gl::Caps& caps,
-                              const std::function<void(const std::string&)>& between) {
+                              const std::function<void(const std::string&)>& between, const Sequence& sequence) {
     check_options(options);
     const Size size = parse_size(options.size);
     const int largest = std::min(caps.max_texture_size, caps.max_renderbuffer_size);
@@ -256,12 +314,23 @@ OpenedScene open_with_options(const std::string& scene, const SceneOptions& opti
     opened.label = is_file ? std::filesystem::path(scene).filename().string() : scene;
     opened.wishes = parse_wishes(options);
     light(opened.scene, options.environment, cache_folder(options.cache), between);
-    const Camera camera = tightened(choose_camera(opened.scene, options, size), world_box(opened.scene));
+    const Box box = posed_for(opened, options, sequence);
+    const Camera camera = tightened(choose_camera(opened, options, size, box), box);
     opened.view = view_of(camera, size.width, size.height);
     for (const std::string& setting : options.settings) {
         apply(parse_setting(setting), opened.scene, opened.view, opened.wishes);
     }
     return opened;
+}
+
+View moved_view(const OpenedScene& opened) {
+    if (opened.camera < 0) return opened.view;
+    const Camera& camera = opened.scene.cameras[static_cast<std::size_t>(opened.camera)];
+    if (camera.node < 0) return opened.view;
+    View view = opened.view;
+    view.view_from_world = glm::inverse(camera.world_from_view);
+    view.eye = glm::vec3(camera.world_from_view[3]);
+    return view;
 }
 
 std::string shell_quoted(const std::string& word) {
@@ -299,6 +368,10 @@ std::vector<std::string> option_words(const SceneOptions& options) {
     if (options.fov_y_deg) {
         add("--fov-y", fmt::format("{}", *options.fov_y_deg), "");
     }
+    if (options.time_s) {
+        add("--time", fmt::format("{}", *options.time_s), "");
+    }
+    add("--animation", options.animation, "");
     for (const std::string& setting : options.settings) {
         add("--set", setting, "");
     }

@@ -28,6 +28,8 @@ struct SceneOptions {
     std::string eye;
     std::string target;
     std::optional<double> fov_y_deg;
+    std::optional<double> time_s;  ///< empty and no animation: the rest pose
+    std::string animation;         ///< name or number; empty: the first, if a time is given
     std::vector<std::string> settings;
 };
 
@@ -40,14 +42,26 @@ struct OpenedScene {
     Scene scene;
     View view;
     Wishes wishes;
+    int animation = -1;  ///< of the scene, posed at the time of the options; -1: the rest pose
+    int camera = -1;     ///< of the scene; -1: the view was made for its box
+};
+
+/// A row of pictures: each this much later than the one before it.
+struct Sequence {
+    int frames = 1;
+    double fps = 30.0;
 };
 
 /// Checks every option before the scene is opened: Error(usage) with the nearest spelling. Loads the scene, frames it
 /// when it brings no camera, lights it with the studio rig when it brings no lights; both leave a notice in the scene.
-/// A size above what `caps` allows is Error(usage). `between` hears a word for the user from time to time and throws to
-/// stop.
+/// The view holds the scene in every frame of `sequence`. A size above what `caps` allows is Error(usage). `between`
+/// hears a word for the user from time to time and throws to stop.
 [[nodiscard]] OpenedScene open_with_options(const std::string& scene, const SceneOptions& options, const gl::Caps& caps,
-                                            const std::function<void(const std::string&)>& between);
+                                            const std::function<void(const std::string&)>& between,
+                                            const Sequence& sequence = {});
+
+/// The view of an opened scene after it was posed: its camera may have moved.
+[[nodiscard]] View moved_view(const OpenedScene& opened);
 
 /// Error(usage) for anything in the options that can be seen to be wrong without a context or a scene.
 void check_options(const SceneOptions& options);

@@ -13,7 +13,8 @@ namespace halfframe::peers {
 namespace {
 
 constexpr std::array kShaders = {ShaderVariant{"floor/floor.vert", "floor/floor.frag",
-                                               "BASE_COLOR_MAP METALLIC_ROUGHNESS_MAP NORMAL_MAP EMISSIVE_MAP"}};
+                                               "BASE_COLOR_MAP METALLIC_ROUGHNESS_MAP NORMAL_MAP EMISSIVE_MAP "
+                                               "SKIN_SMALL SKIN_LARGE SKIN_TEXTURE"}};
 constexpr std::array kTiers = {TierCard{kShaders, "scene_color, depth", "one colour"},
                                TierCard{kShaders, "scene_color, depth", "one colour"},
                                TierCard{kShaders, "scene_color, depth", "one colour"}};
@@ -41,6 +42,7 @@ private:
         gl::Program* program;
         int clip_from_local;
         int base_color;
+        int skin;
         int surface;
         std::vector<std::pair<int, std::uint32_t>> textures;  ///< unit, name
     };
@@ -67,7 +69,8 @@ void FloorWork::add_draw(Renderer& renderer, const EffectCard& card, int index, 
     const bool decoded = renderer.tier_of("floor") != Tier::low && renderer.caps().srgb_textures;
     std::vector<std::string_view> defines;
     std::vector<const char*> samplers;
-    Draw draw{.program = nullptr, .clip_from_local = -1, .base_color = -1, .surface = index, .textures = {}};
+    Draw draw{
+        .program = nullptr, .clip_from_local = -1, .base_color = -1, .skin = -1, .surface = index, .textures = {}};
     for (const Map& map :
          {Map{material.base_color_texture, "BASE_COLOR_MAP", "base_color_map", true},
           Map{material.metallic_roughness_texture, "METALLIC_ROUGHNESS_MAP", "metallic_roughness_map", false},
@@ -79,10 +82,11 @@ void FloorWork::add_draw(Renderer& renderer, const EffectCard& card, int index, 
                                    renderer.texture(map.texture, map.color && decoded));
         samplers.push_back(map.sampler);
     }
+    if (const std::string_view skin = renderer.skin_define(index); !skin.empty()) defines.push_back(skin);
     draw.program = &renderer.program(card, 0, defines);
     draw.clip_from_local = draw.program->uniform("clip_from_local");
     draw.base_color = draw.program->uniform("base_color");
-    renderer.use(*draw.program);
+    draw.skin = renderer.claim_skin(*draw.program);
     for (std::size_t unit = 0; unit < samplers.size(); ++unit) {
         renderer.gl().Uniform1i(draw.program->uniform(samplers[unit]), static_cast<int>(unit));
     }
@@ -96,15 +100,14 @@ void FloorWork::draw(Renderer& renderer, const View& view, int) {
     for (const Draw& draw : draws_) {
         const Surface& surface = renderer.scene().surfaces[static_cast<std::size_t>(draw.surface)];
         const Material& material = renderer.scene().materials[static_cast<std::size_t>(surface.material)];
-        const DrawMesh& mesh = renderer.mesh(surface.mesh);
         const glm::mat4 clip = clip_from_local(view, surface.world_from_local);
-        if (outside_view(mesh.box, clip)) continue;
+        if (outside_view(renderer.box(draw.surface), clip)) continue;
         renderer.use(*draw.program);
         renderer.set_cull(!material.double_sided);
         for (const auto& [unit, texture] : draw.textures) renderer.bind_texture(unit, texture);
         renderer.gl().Uniform4fv(draw.base_color, 1, &material.base_color.x);
         renderer.gl().UniformMatrix4fv(draw.clip_from_local, 1, GL_FALSE, &clip[0][0]);
-        renderer.draw_mesh(mesh);
+        renderer.draw_surface(draw.surface, draw.skin);
     }
 }
 

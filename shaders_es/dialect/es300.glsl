@@ -10,4 +10,5 @@ layout(location = 0) out HALF vec4 fragment_color;
 #define sample_2d(image, at) texture(image, at)
 #define sample_compared(image, at) texture(image, at)
 #define sample_cube(image, toward) texture(image, toward)
+#define fetch_texel(image, at) texelFetch(image, at, 0)
 #define sample_cube_lod(image, toward, lod) textureLod(image, toward, lod)

@@ -1,4 +1,6 @@
 // The least that draws a mesh: places a vertex. Belongs to perf/peers, which times what no shading can go below.
+#include "common/mesh_vertex.glsl"
+
 VERTEX_IN vec3 position;  // [m] local
 VERTEX_IN vec2 uv;
 
@@ -7,6 +9,12 @@ uniform highp mat4 clip_from_local;
 VERTEX_OUT FULL vec2 vertex_uv;
 
 void main() {
-    gl_Position = clip_from_local * vec4(position, 1.0);
+#ifdef SKINNED
+    skin_vertex();
+    highp vec3 place = skinned_position(position);
+#else
+    highp vec3 place = position;
+#endif
+    gl_Position = clip_from_local * vec4(place, 1.0);
     vertex_uv = uv;
 }

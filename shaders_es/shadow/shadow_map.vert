@@ -1,4 +1,6 @@
 // Draws a caster into the sun's map.
+#include "common/mesh_vertex.glsl"
+
 VERTEX_IN vec3 position;  // [m] local
 uniform highp mat4 clip_from_local;
 #ifdef ALPHA_MASK
@@ -13,7 +15,13 @@ VERTEX_OUT HALF float vertex_alpha;
 #endif
 
 void main() {
-    gl_Position = clip_from_local * vec4(position, 1.0);
+#ifdef SKINNED
+    skin_vertex();
+    highp vec3 place = skinned_position(position);
+#else
+    highp vec3 place = position;
+#endif
+    gl_Position = clip_from_local * vec4(place, 1.0);
 #ifdef ALPHA_MASK
 #ifdef BASE_COLOR_MAP
     vertex_uv = uv;

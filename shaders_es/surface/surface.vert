@@ -4,6 +4,7 @@
 #include "surface/surface_limits.h"
 #include "surface/surface_lights.glsl"
 #include "common/maths.glsl"
+#include "common/mesh_vertex.glsl"
 
 VERTEX_IN vec3 position;  // [m] local
 VERTEX_IN vec4 normal;    // xyz unit
@@ -63,15 +64,26 @@ vec3 local_light(vec3 at, vec3 n) {
 invariant gl_Position;  // the depth prepass writes the same depths
 
 void main() {
-    gl_Position = clip_from_local * vec4(position, 1.0);
+#ifdef SKINNED
+    skin_vertex();
+    highp vec3 place = skinned_position(position);
+#else
+    highp vec3 place = position;
+#endif
+    gl_Position = clip_from_local * vec4(place, 1.0);
 #ifdef POINTS
     gl_PointSize = 4.0;
 #endif
-    vec3 at = (eye_from_local * vec4(position, 1.0)).xyz;
+    vec3 at = (eye_from_local * vec4(place, 1.0)).xyz;
     vertex_to_eye = -at * toward_eye.w;
     vertex_uv = uv;
 #ifndef UNLIT
-    vec3 n = normalize((normal_from_local * vec4(normal.xyz, 0.0)).xyz);
+#ifdef SKINNED
+    highp vec3 upright = normalize(skinned_normal(normal.xyz));
+#else
+    highp vec3 upright = normal.xyz;
+#endif
+    vec3 n = normalize((normal_from_local * vec4(upright, 0.0)).xyz);
     vertex_normal = n;
 #if defined(DOUBLE_SIDED) && defined(TIER_LOW)
     vec3 to_eye = dot(toward_eye.xyz, toward_eye.xyz) > 0.5 ? toward_eye.xyz : -at;
@@ -83,7 +95,12 @@ void main() {
     //@insert surface.vertex
 #endif
 #ifdef NORMAL_MAP
-    vertex_tangent = vec4(normalize((eye_from_local * vec4(tangent.xyz, 0.0)).xyz), tangent.w);
+#ifdef SKINNED
+    highp vec3 along = normalize(skinned_tangent(tangent.xyz));
+#else
+    highp vec3 along = tangent.xyz;
+#endif
+    vertex_tangent = vec4(normalize((eye_from_local * vec4(along, 0.0)).xyz), tangent.w);
 #endif
 #ifdef VERTEX_COLOR
     vertex_color = color;

@@ -1,4 +1,4 @@
-// halfframe_bench runs and prints a slope for every kind of light. What the slopes are is not judged.
+// The benchmarks run: a slope for every kind of light, a row for every way of skinning. What they measure is not judged.
 #include <gtest/gtest.h>
 
 #include "tests/perf/child_process.h"
@@ -18,6 +18,18 @@ TEST(LightBench, PrintsASlopeForEveryKindOfLight) {
             EXPECT_NE(result.out.find(group), std::string::npos) << group << "\n" << result.out;
         }
         EXPECT_EQ(result.out.find("nan"), std::string::npos) << result.out;
+    }
+}
+
+TEST(MotionBench, TimesEveryWayForEveryNumberOfJoints) {
+    const std::string bench = HALFFRAME_BINARY_DIR "/halfframe_motion_bench";
+    if (run_child(HALFFRAME_BINARY_DIR "/halfframe", {"info", "--json"}, {}).code == 4) {
+        GTEST_SKIP() << "no graphics context here";
+    }
+    const ChildResult result = run_child(bench, {"--rounds", "1", "--side", "32"}, {});
+    ASSERT_EQ(result.code, 0) << result.err;
+    for (const char* words : {"at rest", "uniforms", "texture", "cpu", "256"}) {
+        EXPECT_NE(result.out.find(words), std::string::npos) << words << "\n" << result.out;
     }
 }
 

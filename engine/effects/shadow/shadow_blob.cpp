@@ -110,7 +110,7 @@ void ShadowBlobs::draw(Renderer& renderer, const View& view, int) {
     gl.PolygonOffset(kSlopeOffset, kStepOffset);
     for (const int index : objects_) {
         const Surface& surface = renderer.scene().surfaces[static_cast<std::size_t>(index)];
-        const auto blob = blob_under(world_box(renderer.mesh(surface.mesh).box, surface.world_from_local), grounds_);
+        const auto blob = blob_under(world_box(renderer.box(index), surface.world_from_local), grounds_);
         if (!blob) continue;
         glm::mat4 world_from_radii(1.0f);
         world_from_radii[0].x = blob->radius.x;

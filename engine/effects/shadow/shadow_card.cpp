@@ -8,6 +8,7 @@
 #include "engine/effects/shadow/shadow_fit.h"
 #include "engine/effects/shadow/shadow_map.h"
 #include "engine/frame/frame_plan.h"
+#include "engine/frame/skinning.h"
 #include "shaders_es/shadow/shadow_limits.h"
 
 namespace halfframe {
@@ -17,7 +18,8 @@ namespace {
 constexpr std::array kBlobShaders = {
     ShaderVariant{"shadow/shadow_blob.vert", "shadow/shadow_blob.frag", "SCENE_COLOR_LINEAR"}};
 constexpr std::array kMapShaders = {
-    ShaderVariant{"shadow/shadow_map.vert", "shadow/shadow_map.frag", "ALPHA_MASK BASE_COLOR_MAP VERTEX_COLOR"}};
+    ShaderVariant{"shadow/shadow_map.vert", "shadow/shadow_map.frag",
+                  "ALPHA_MASK BASE_COLOR_MAP VERTEX_COLOR SKIN_SMALL SKIN_LARGE SKIN_TEXTURE"}};
 constexpr gl::Insertion kInsertions[] = {
     {"surface.vertex", "shadow/shadow_place.glsl", "shadow_at = placed_in_shadow(at, n);"},
     {"surface.sun", "shadow/shadow_receive.glsl", "sun_light *= sun_share();"}};
@@ -28,7 +30,8 @@ Demand called_for_map(const Scene& scene) {
     bool has_depth = false;
     for (std::size_t i = 0; i < scene.surfaces.size(); ++i) {
         std::optional<Box>& box = boxes[static_cast<std::size_t>(scene.surfaces[i].mesh)];
-        if (!box) box = local_box(scene.meshes[static_cast<std::size_t>(scene.surfaces[i].mesh)]);
+        if (changes_shape(scene, scene.surfaces[i])) box = posed_box(scene, static_cast<int>(i));
+        else if (!box) box = local_box(scene.meshes[static_cast<std::size_t>(scene.surfaces[i].mesh)]);
         const ShadowBody body = shadow_body(scene, static_cast<int>(i), *box);
         casters += body.casts;
         receivers += body.receives;
@@ -46,11 +49,11 @@ Demand called_for_map(const Scene& scene) {
 Demand called_for_blobs(const Scene& scene) {
     const std::vector<Box> grounds = grounds_of(scene);
     int objects = 0, blobs = 0;
-    for (const Surface& surface : scene.surfaces) {
+    for (std::size_t i = 0; i < scene.surfaces.size(); ++i) {
+        const Surface& surface = scene.surfaces[i];
         if (!surface.dynamic) continue;
         ++objects;
-        const Box box =
-            world_box(local_box(scene.meshes[static_cast<std::size_t>(surface.mesh)]), surface.world_from_local);
+        const Box box = world_box(posed_box(scene, static_cast<int>(i)), surface.world_from_local);
         blobs += blob_under(box, grounds).has_value();
     }
     if (objects == 0) return {false, "no surface is dynamic, and this tier shadows nothing else"};

@@ -29,11 +29,12 @@ ShadowMap::ShadowMap(Renderer& renderer) {
     target_ = renderer.plan().target_index("shadow_map");
     const Scene& scene = renderer.scene();
     for (std::size_t i = 0; i < scene.surfaces.size(); ++i) {
-        const ShadowBody body = shadow_body(scene, static_cast<int>(i), renderer.mesh(scene.surfaces[i].mesh).box);
+        const ShadowBody body = shadow_body(scene, static_cast<int>(i), renderer.box(static_cast<int>(i)));
         if (!body.casts && !body.receives) continue;
         bodies_.push_back(body);
         if (body.casts) add_caster(renderer, static_cast<int>(bodies_.size()) - 1);
     }
+    drawn_shapes_.resize(bodies_.size());
     std::ranges::stable_sort(casters_, {}, &Caster::variant);  // fewest changes of program
 }
 
@@ -41,10 +42,10 @@ int ShadowMap::variant_of(Renderer& renderer, const std::vector<std::string_view
     gl::Program& program = renderer.program(kShadow, 0, defines);
     const auto known = std::ranges::find(variants_, &program, &Variant::program);
     if (known != variants_.end()) return static_cast<int>(known - variants_.begin());
-    renderer.use(program);
+    const int skin = renderer.claim_skin(program);
     if (const int map = program.uniform_if_used("base_color_map"); map >= 0)
         renderer.gl().Uniform1i(map, kBaseColorUnit);
-    variants_.push_back({&program, program.uniform("clip_from_local"), program.uniform_if_used("mask")});
+    variants_.push_back({&program, program.uniform("clip_from_local"), program.uniform_if_used("mask"), skin});
     program.expect_all_uniforms_claimed();
     return static_cast<int>(variants_.size()) - 1;
 }
@@ -65,6 +66,9 @@ void ShadowMap::add_caster(Renderer& renderer, int body) {
             caster.texture = renderer.texture(material.base_color_texture, renderer.caps().srgb_textures);
         }
     }
+    if (const std::string_view skin = renderer.skin_define(bodies_[static_cast<std::size_t>(body)].surface);
+        !skin.empty())
+        defines.push_back(skin);
     caster.variant = variant_of(renderer, defines);
     casters_.push_back(caster);
 }
@@ -76,17 +80,27 @@ std::optional<ShadowFit> ShadowMap::fit(const Renderer& renderer, const View& vi
 }
 
 bool ShadowMap::still_holds(const Renderer& renderer, const View& view, int) const {
-    if (!drawn_ || fit(renderer, view) != drawn_fit_) return false;
+    if (!drawn_) return false;
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+        if (renderer.shape(bodies_[i].surface) != drawn_shapes_[i]) return false;
+    }
+    if (fit(renderer, view) != drawn_fit_) return false;
     return std::ranges::all_of(casters_, [&](const Caster& caster) {
         return surface_of(renderer, bodies_[static_cast<std::size_t>(caster.body)]).world_from_local == caster.drawn_at;
     });
 }
 
 void ShadowMap::draw(Renderer& renderer, const View& view, int) {
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+        bodies_[i].local = renderer.box(bodies_[i].surface);
+        drawn_shapes_[i] = renderer.shape(bodies_[i].surface);
+    }
     drawn_fit_ = fit(renderer, view);
     drawn_ = true;
-    for (Caster& caster : casters_)
-        caster.drawn_at = surface_of(renderer, bodies_[static_cast<std::size_t>(caster.body)]).world_from_local;
+    for (Caster& caster : casters_) {
+        const ShadowBody& body = bodies_[static_cast<std::size_t>(caster.body)];
+        caster.drawn_at = surface_of(renderer, body).world_from_local;
+    }
     if (drawn_fit_) draw_casters(renderer);
 }
 
@@ -109,7 +123,7 @@ void ShadowMap::draw_casters(Renderer& renderer) {
         gl.UniformMatrix4fv(variant.clip_from_local, 1, GL_FALSE, &matrix[0][0]);
         if (variant.mask >= 0) gl.Uniform4fv(variant.mask, 1, &caster.mask.x);
         if (caster.texture != 0) renderer.bind_texture(kBaseColorUnit, caster.texture);
-        renderer.draw_mesh(renderer.mesh(surface_of(renderer, body).mesh));
+        renderer.draw_surface(body.surface, variant.skin);
     }
     gl.PolygonOffset(0.0f, 0.0f);
     gl.Disable(GL_POLYGON_OFFSET_FILL);

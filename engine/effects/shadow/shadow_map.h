@@ -22,7 +22,7 @@ private:
     /// A program of casters and where its uniforms are.
     struct Variant {
         gl::Program* program = nullptr;
-        int clip_from_local = -1, mask = -1;
+        int clip_from_local = -1, mask = -1, skin = -1;
     };
     struct Caster {
         int body = 0;
@@ -45,6 +45,7 @@ private:
     float reach_texels_ = 0.0f;
     int target_ = -1;
     std::vector<ShadowBody> bodies_;
+    std::vector<std::uint32_t> drawn_shapes_;  ///< Renderer::shape() of each body when the map was drawn
     std::vector<Variant> variants_;
     std::vector<Caster> casters_;
     std::vector<Receiver> receivers_;

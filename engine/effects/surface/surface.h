@@ -11,13 +11,13 @@ namespace halfframe {
 extern const EffectCard kSurface;
 
 /// The programs of surface, which transparent draws with too. One list, so that both are checked alike.
-[[nodiscard]] std::span<const ShaderVariant> surface_shaders();
+[[nodiscard]] std::span<const ShaderVariant> surface_shaders(Tier tier);
 
 /// How many surfaces blend with what is behind them; the others hide it.
 [[nodiscard]] int count_blended(const Scene& scene);
 
-/// Lights that reach `box` (world, [m]), strongest first, at most `limit`; suns are not among them.
-/// `left_out` counts those that reach it and had no place.
-[[nodiscard]] std::vector<int> lights_reaching(const Scene& scene, const Box& box, int limit, int& left_out);
+/// Fills `lights` with those that reach `box` (world, [m]), strongest first, at most `limit`; suns are not among them.
+/// `left_out` counts those that reach it and had no place. Allocates nothing where `lights` has room for limit + 1.
+void lights_reaching(const Scene& scene, const Box& box, std::size_t limit, std::vector<int>& lights, int& left_out);
 
 }  // namespace halfframe

@@ -16,8 +16,13 @@ namespace {
 constexpr std::string_view kDefines =
     "BASE_COLOR_MAP METALLIC_ROUGHNESS_MAP NORMAL_MAP EMISSIVE_MAP VERTEX_COLOR ALPHA_MASK ALPHA_BLEND DOUBLE_SIDED "
     "SUN LOCAL_LIGHTS ONE_LIGHT TWO_LIGHTS THREE_LIGHTS FOUR_LIGHTS SPOT_LIGHTS AREA_LIGHTS UNLIT POINTS "
-    "SCENE_COLOR_PACKED";
-constexpr std::array kShaders = {ShaderVariant{"surface/surface.vert", "surface/surface.frag", kDefines}};
+    "SCENE_COLOR_PACKED SKIN_SMALL";
+constexpr std::string_view kDefinesAboveLow =
+    "BASE_COLOR_MAP METALLIC_ROUGHNESS_MAP NORMAL_MAP EMISSIVE_MAP VERTEX_COLOR ALPHA_MASK ALPHA_BLEND DOUBLE_SIDED "
+    "SUN LOCAL_LIGHTS ONE_LIGHT TWO_LIGHTS THREE_LIGHTS FOUR_LIGHTS SPOT_LIGHTS AREA_LIGHTS UNLIT POINTS "
+    "SCENE_COLOR_PACKED SKIN_SMALL SKIN_LARGE SKIN_TEXTURE";
+constexpr std::array kShadersAtLow = {ShaderVariant{"surface/surface.vert", "surface/surface.frag", kDefines}};
+constexpr std::array kShaders = {ShaderVariant{"surface/surface.vert", "surface/surface.frag", kDefinesAboveLow}};
 
 Demand called_for(const PlanContext& context) {
     const std::size_t count = context.scene.surfaces.size();
@@ -44,9 +49,21 @@ std::unique_ptr<EffectWork> prepare(Renderer& renderer) {
 
 float strongest_channel(const glm::vec3& color) { return std::max({color.r, color.g, color.b}); }
 
+/// At the place of `box` that is nearest to the light; 0: it does not reach, or is a sun.
+float strength_in(const Box& box, const Light& light) {
+    if (light.kind == LightKind::sun) return 0.0f;
+    const float distance_m = glm::distance(glm::clamp(light.position, box.low, box.high), light.position);
+    if (distance_m >= light.range_m) return 0.0f;
+    const float nearest_m2 = std::max({distance_m * distance_m, light.radius_m * light.radius_m, 0.01f});
+    return std::max(strongest_channel(light.color) / nearest_m2, 1e-30f);  // a dark lamp counts, and loses to all
+}
+
 }  // namespace
 
-std::span<const ShaderVariant> surface_shaders() { return kShaders; }
+std::span<const ShaderVariant> surface_shaders(Tier tier) {
+    if (tier == Tier::low) return kShadersAtLow;
+    return kShaders;
+}
 
 int count_blended(const Scene& scene) {
     return static_cast<int>(std::ranges::count_if(scene.surfaces, [&](const Surface& surface) {
@@ -54,28 +71,20 @@ int count_blended(const Scene& scene) {
     }));
 }
 
-std::vector<int> lights_reaching(const Scene& scene, const Box& box, int limit, int& left_out) {
-    struct Candidate {
-        int light;
-        float strength;
-    };
-    std::vector<Candidate> candidates;
+void lights_reaching(const Scene& scene, const Box& box, std::size_t limit, std::vector<int>& lights, int& left_out) {
+    lights.clear();
+    left_out = 0;
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-        const Light& light = scene.lights[i];
-        if (light.kind == LightKind::sun) continue;
-        const glm::vec3 nearest = glm::clamp(light.position, box.low, box.high);
-        const float distance_m = glm::distance(nearest, light.position);
-        if (distance_m >= light.range_m) continue;
-        candidates.push_back(
-            {static_cast<int>(i), strongest_channel(light.color) /
-                                      std::max({distance_m * distance_m, light.radius_m * light.radius_m, 0.01f})});
+        const float strength = strength_in(box, scene.lights[i]);
+        if (!(strength > 0.0f)) continue;
+        auto at = lights.end();
+        while (at != lights.begin() && strength_in(box, scene.lights[static_cast<std::size_t>(*(at - 1))]) < strength)
+            --at;
+        lights.insert(at, static_cast<int>(i));
+        if (lights.size() <= limit) continue;
+        lights.pop_back();
+        ++left_out;
     }
-    std::ranges::stable_sort(candidates, std::greater<>{}, &Candidate::strength);
-    left_out = std::max(static_cast<int>(candidates.size()) - limit, 0);
-    if (left_out > 0) candidates.resize(static_cast<std::size_t>(limit));
-    std::vector<int> lights;
-    for (const Candidate& candidate : candidates) lights.push_back(candidate.light);
-    return lights;
 }
 
 const EffectCard kSurface{
@@ -88,7 +97,7 @@ const EffectCard kSurface{
     .kind = EffectKind::pass,
     .called_for_by = "surfaces that hide what is behind them",
     .budget_row = "surface",
-    .tiers = {TierCard{kShaders, "scene_color, depth",
+    .tiers = {TierCard{kShadersAtLow, "scene_color, depth",
                        "the sun by pixel with its highlight; local lights by vertex and diffuse only; mediump where "
                        "the device has no highp"},
               TierCard{kShaders, "scene_color, depth", "every light by pixel with highlights to a power of 2048"},

@@ -44,7 +44,7 @@ const Material& material_of(const Renderer& renderer, const Surface& surface) {
 }  // namespace
 
 std::vector<std::string_view> SurfaceWork::defines_of(const Renderer& renderer, const Surface& surface,
-                                                      std::span<const int> lights) const {
+                                                      std::span<const int> lights, bool chooses_lights) const {
     const Material& material = material_of(renderer, surface);
     const DrawMesh& mesh = renderer.mesh(surface.mesh);
     const bool lit = mesh.has_normals;
@@ -62,7 +62,7 @@ std::vector<std::string_view> SurfaceWork::defines_of(const Renderer& renderer, 
         // Up to four have a loop of their own length.
         constexpr std::array<std::string_view, 4> kCounts{"ONE_LIGHT", "TWO_LIGHTS", "THREE_LIGHTS", "FOUR_LIGHTS"};
         defines.push_back("LOCAL_LIGHTS");
-        if (lights.size() <= kCounts.size()) defines.push_back(kCounts[lights.size() - 1]);
+        if (!chooses_lights && lights.size() <= kCounts.size()) defines.push_back(kCounts[lights.size() - 1]);
         const auto is_spot = [&](int light) {
             return renderer.scene().lights[static_cast<std::size_t>(light)].kind == LightKind::spot;
         };
@@ -77,7 +77,16 @@ std::vector<std::string_view> SurfaceWork::defines_of(const Renderer& renderer, 
     if (!lit) defines.push_back("UNLIT");  // glTF 2.0, 3.7.2.1: points and lines without normals are not lit
     if (mesh.mode == GL_POINTS) defines.push_back("POINTS");
     if (renderer.plan().storage == gl::PixelFormat::rgb10_a2) defines.push_back("SCENE_COLOR_PACKED");
+    if (const std::string_view skin =
+            renderer.skin_define(static_cast<int>(&surface - renderer.scene().surfaces.data()));
+        !skin.empty())
+        defines.push_back(skin);
     return defines;
+}
+
+bool SurfaceWork::chooses_lights(const Scene& scene, const Surface& surface) const {
+    return surface.node >= 0 || surface.skin >= 0 ||
+           std::ranges::any_of(scene.lights, [](const Light& light) { return light.node >= 0; });
 }
 
 int SurfaceWork::variant_of(Renderer& renderer, const std::vector<std::string_view>& defines) {
@@ -104,7 +113,7 @@ int SurfaceWork::variant_of(Renderer& renderer, const std::vector<std::string_vi
     variant.light_direction = program.uniform_if_used("light_direction");
     variant.light_size = program.uniform_if_used("light_size");
     variant.light_count = program.uniform_if_used("light_count");
-    renderer.use(program);
+    variant.skin = renderer.claim_skin(program);
     for (const auto& [sampler, unit] :
          {std::pair{"base_color_map", kBaseColorUnit}, std::pair{"metallic_roughness_map", kMetallicRoughnessUnit},
           std::pair{"normal_map", kNormalUnit}, std::pair{"emissive_map", kEmissiveUnit}}) {
@@ -126,14 +135,23 @@ void SurfaceWork::add_draw(Renderer& renderer, int index) {
               .textures = {},
               .lights = {}};
     int left_out = 0;
-    draw.lights =
-        lights_reaching(renderer.scene(), world_box(renderer.mesh(surface.mesh).box, surface.world_from_local),
-                        SURFACE_LIGHT_LIMIT, left_out);
+    draw.lights.reserve(SURFACE_LIGHT_LIMIT + 1);
+    const Box box = world_box(renderer.box(index), surface.world_from_local);
+    lights_reaching(renderer.scene(), box, SURFACE_LIGHT_LIMIT, draw.lights, left_out);
+    draw.chooses_lights = chooses_lights(renderer.scene(), surface);
+    std::vector<int> possible = draw.lights;
+    if (draw.chooses_lights) {
+        // Its program must be ready for every lamp that may come near.
+        possible.clear();
+        for (std::size_t i = 0; i < renderer.scene().lights.size(); ++i) {
+            if (renderer.scene().lights[i].kind != LightKind::sun) possible.push_back(static_cast<int>(i));
+        }
+    }
     if (left_out > 0) {
         renderer.add_notice(fmt::format("{} lights reach {} and {} are drawn: the {} weakest are left out",
                                         left_out + SURFACE_LIGHT_LIMIT, surface.name, SURFACE_LIGHT_LIMIT, left_out));
     }
-    const auto defines = defines_of(renderer, surface, draw.lights);
+    const auto defines = defines_of(renderer, surface, possible, draw.chooses_lights);
     draw.variant = variant_of(renderer, defines);
     const bool decoded = renderer.tier_of(card_.name) != Tier::low && renderer.caps().srgb_textures;
     const auto uses = [&](std::string_view define) { return std::ranges::find(defines, define) != defines.end(); };
@@ -219,7 +237,7 @@ void SurfaceWork::set_matrices(Renderer& renderer, const View& view, const Varia
 float SurfaceWork::fragment_length_scale(const Renderer& renderer, const View& view, const Draw& draw) const {
     if (!renderer.caps().fragment_highp) {
         const Surface& surface = renderer.scene().surfaces[static_cast<std::size_t>(draw.surface)];
-        const Box box = world_box(renderer.mesh(surface.mesh).box, eye_from_local(view, surface.world_from_local));
+        const Box box = world_box(renderer.box(draw.surface), eye_from_local(view, surface.world_from_local));
         const float farthest = glm::length(glm::max(glm::abs(box.low), glm::abs(box.high)));
         return 64.0f / std::max(farthest, 1e-3f);
     }
@@ -263,11 +281,11 @@ void SurfaceWork::set_lights(Renderer& renderer, const View& view, const Variant
     set(gl, variant.light_count, glm::vec4(static_cast<float>(count), 0.0f, 0.0f, 0.0f));
 }
 
-void SurfaceWork::draw_one(Renderer& renderer, const View& view, const Draw& draw) {
+void SurfaceWork::draw_one(Renderer& renderer, const View& view, Draw& draw) {
     const Surface& surface = renderer.scene().surfaces[static_cast<std::size_t>(draw.surface)];
-    const DrawMesh& mesh = renderer.mesh(surface.mesh);
+    const Box& box = renderer.box(draw.surface);
     const glm::mat4 clip = clip_from_local(view, surface.world_from_local);
-    if (outside_view(mesh.box, clip)) return;
+    if (outside_view(box, clip)) return;
     const Variant& variant = variants_[static_cast<std::size_t>(draw.variant)];
     if (current_variant_ != draw.variant) {
         set_variant(renderer, view, variant);
@@ -278,15 +296,20 @@ void SurfaceWork::draw_one(Renderer& renderer, const View& view, const Draw& dra
         set_material(renderer, view, variant, draw);
         current_material_ = draw.material;
     }
+    if (draw.chooses_lights) {
+        int left_out = 0;
+        lights_reaching(renderer.scene(), world_box(box, surface.world_from_local), SURFACE_LIGHT_LIMIT, draw.lights,
+                        left_out);
+    }
     set_matrices(renderer, view, variant, draw, clip);
     set_lights(renderer, view, variant, draw);
-    renderer.draw_mesh(mesh);
+    renderer.draw_surface(draw.surface, variant.skin);
 }
 
 void SurfaceWork::sort_by_distance(const Renderer& renderer, const View& view) {
     for (std::size_t i = 0; i < draws_.size(); ++i) {
         const Surface& surface = renderer.scene().surfaces[static_cast<std::size_t>(draws_[i].surface)];
-        const Box box = world_box(renderer.mesh(surface.mesh).box, surface.world_from_local);
+        const Box box = world_box(renderer.box(draws_[i].surface), surface.world_from_local);
         const glm::vec3 from_eye = (box.low + box.high) * 0.5f - view.eye;
         order_[i] = {static_cast<double>(glm::dot(from_eye, from_eye)), static_cast<int>(i)};
     }

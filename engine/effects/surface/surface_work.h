@@ -29,6 +29,7 @@ private:
         int base_color = -1, emissive = -1, factors = -1, ambient = -1, parallel_eye = -1;
         int sun_direction = -1, sun_color = -1;
         int light_position = -1, light_color = -1, light_direction = -1, light_size = -1, light_count = -1;
+        int skin = -1;
     };
     struct TextureBinding {
         int unit;
@@ -41,10 +42,12 @@ private:
         bool double_sided = false;
         std::vector<TextureBinding> textures;
         std::vector<int> lights;
+        bool chooses_lights = false;  ///< anew in every frame: it moves, or a lamp does
     };
 
     [[nodiscard]] std::vector<std::string_view> defines_of(const Renderer& renderer, const Surface& surface,
-                                                           std::span<const int> lights) const;
+                                                           std::span<const int> lights, bool chooses_lights) const;
+    [[nodiscard]] bool chooses_lights(const Scene& scene, const Surface& surface) const;
     int variant_of(Renderer& renderer, const std::vector<std::string_view>& defines);
     void add_draw(Renderer& renderer, int surface);
     void sort_by_distance(const Renderer& renderer, const View& view);
@@ -54,7 +57,7 @@ private:
                       const glm::mat4& clip);
     [[nodiscard]] float fragment_length_scale(const Renderer& renderer, const View& view, const Draw& draw) const;
     void set_lights(Renderer& renderer, const View& view, const Variant& variant, const Draw& draw);
-    void draw_one(Renderer& renderer, const View& view, const Draw& draw);
+    void draw_one(Renderer& renderer, const View& view, Draw& draw);
 
     const EffectCard& card_;
     SurfacePart part_;

@@ -218,7 +218,8 @@ TEST_F(Surface, LightsReachOnlyTheirRangeStrongestFirst) {
         {.kind = LightKind::point, .color = glm::vec3(1e6f), .position = {0.0f, 100.0f, 0.0f}, .range_m = 5.0f});
     scene.lights.push_back({.kind = LightKind::sun});
     int left_out = -1;
-    const auto lights = lights_reaching(scene, Box{.low = glm::vec3(-1.0f), .high = glm::vec3(1.0f)}, 8, left_out);
+    std::vector<int> lights;
+    lights_reaching(scene, Box{.low = glm::vec3(-1.0f), .high = glm::vec3(1.0f)}, 8, lights, left_out);
     ASSERT_EQ(lights.size(), 8u);
     EXPECT_EQ(left_out, 4);
     EXPECT_EQ(lights.front(), 11) << "the strongest";

@@ -15,8 +15,6 @@ namespace halfframe {
 
 namespace {
 
-std::int16_t snorm16(float x) { return static_cast<std::int16_t>(std::lround(std::clamp(x, -1.0f, 1.0f) * 32767.0f)); }
-
 const void* offset(std::size_t bytes) { return reinterpret_cast<const void*>(bytes); }
 
 int texture_rows(std::size_t joints) { return static_cast<int>((joints + JOINTS_A_ROW - 1) / JOINTS_A_ROW); }
@@ -144,6 +142,9 @@ void MovingMeshes::make_parts(Moving& moving, const DrawMesh& mesh) {
             part.arrays[copy] = gl::create<gl::Kind::vertex_array>(gl_);
             gl_.BindVertexArray(part.arrays[copy].name());
             point_attributes(moving, mesh, i, copy);
+            for (GLuint attribute = 0; attribute < kVertexAttributes; ++attribute) {
+                if ((attributes(moving, mesh) & 1u << attribute) != 0) gl_.EnableVertexAttribArray(attribute);
+            }
             gl_.BindVertexArray(0);
         }
     }
@@ -152,13 +153,15 @@ void MovingMeshes::make_parts(Moving& moving, const DrawMesh& mesh) {
 void MovingMeshes::point_attributes(const Moving& moving, const DrawMesh& mesh, std::size_t part, std::size_t turn) {
     const DrawPart& drawn = mesh.parts[part];
     gl_.BindBuffer(GL_ARRAY_BUFFER, drawn.vertices.name());
-    set_vertex_layout(gl_);
+    set_vertex_layout(gl_, mesh.layout);
     if (moving.streams) {
         constexpr GLsizei stride = sizeof(StreamVertex);
         gl_.BindBuffer(GL_ARRAY_BUFFER, moving.parts[part].moved[turn].name());
         gl_.VertexAttribPointer(kPosition, 3, GL_FLOAT, GL_FALSE, stride, offset(offsetof(StreamVertex, position)));
-        gl_.VertexAttribPointer(kNormal, 4, GL_SHORT, GL_TRUE, stride, offset(offsetof(StreamVertex, normal)));
-        gl_.VertexAttribPointer(kTangent, 4, GL_SHORT, GL_TRUE, stride, offset(offsetof(StreamVertex, tangent)));
+        if (mesh.has_normals)
+            gl_.VertexAttribPointer(kNormal, 2, GL_SHORT, GL_TRUE, stride, offset(offsetof(StreamVertex, normal)));
+        if (mesh.has_tangents)
+            gl_.VertexAttribPointer(kTangent, 2, GL_SHORT, GL_TRUE, stride, offset(offsetof(StreamVertex, tangent)));
     }
     if (moving.skinned && moving.way != Skinning::cpu) {
         const MeshData& data = data_[static_cast<std::size_t>(moving.mesh_data)];
@@ -168,8 +171,6 @@ void MovingMeshes::point_attributes(const Moving& moving, const DrawMesh& mesh, 
         gl_.VertexAttribPointer(kJoints, 4, data.wide_joints ? GL_UNSIGNED_SHORT : GL_UNSIGNED_BYTE, GL_FALSE, stride,
                                 offset(0));
         gl_.VertexAttribPointer(kWeights, 4, GL_UNSIGNED_BYTE, GL_TRUE, stride, offset(joint_bytes));
-        gl_.EnableVertexAttribArray(kJoints);
-        gl_.EnableVertexAttribArray(kWeights);
     }
     if (drawn.indices) gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, drawn.indices.name());
 }
@@ -180,9 +181,12 @@ std::uint32_t MovingMeshes::bind(const Moving& moving, const DrawMesh& mesh, std
     return array.name();
 }
 
-void MovingMeshes::release_loose_arrays() {
-    gl_.DisableVertexAttribArray(kJoints);
-    gl_.DisableVertexAttribArray(kWeights);
+unsigned MovingMeshes::attributes(const Moving& moving, const DrawMesh& mesh) const {
+    unsigned wanted = 0;
+    for (int i = 0; i < mesh.layout.count; ++i)
+        wanted |= 1u << mesh.layout.streams[static_cast<std::size_t>(i)].attribute;
+    if (moving.skinned && moving.way != Skinning::cpu) wanted |= 1u << kJoints | 1u << kWeights;
+    return wanted;
 }
 
 const MovingMeshes::Moving* MovingMeshes::find(int surface) const {
@@ -247,14 +251,9 @@ void MovingMeshes::write_streams(const Scene& scene, Moving& moving) {
             MovedVertex vertex = morphed(mesh, source, moving.morph_weights);
             if (skins) vertex = skinned(vertex, data.skinned.vertices[source], moving.palette);
             StreamVertex& out = staging_[i];
-            for (int axis = 0; axis < 3; ++axis) {
-                const auto at = static_cast<std::size_t>(axis);
-                out.position[at] = vertex.position[axis];
-                out.normal[at] = snorm16(vertex.normal[axis]);
-                out.tangent[at] = snorm16(vertex.tangent[axis]);
-            }
-            out.normal[3] = 0;
-            out.tangent[3] = snorm16(vertex.tangent.w);
+            for (int axis = 0; axis < 3; ++axis) out.position[static_cast<std::size_t>(axis)] = vertex.position[axis];
+            if (drawn.has_normals) out.normal = octahedral16(glm::dvec3(vertex.normal));
+            if (drawn.has_tangents) out.tangent = octahedral16_tangent(glm::dvec4(vertex.tangent));
         }
         gl_.BindBuffer(GL_ARRAY_BUFFER, moving.parts[part].moved[moving.turn].name());
         gl_.BufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(count * sizeof(StreamVertex)), staging_.data());

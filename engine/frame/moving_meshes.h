@@ -68,10 +68,11 @@ public:
     /// nullptr: the surface keeps its shape.
     [[nodiscard]] const Moving* find(int surface) const;
 
-    /// Sets the vertex arrays of part `part`; without vertex array objects attribute pointers, to be taken back by
-    /// release_loose_arrays() after the draw. Returns the array object, 0: there is none.
+    /// Makes the vertex arrays of part `part` ready: returns its array object, or points the attributes where the device
+    /// has none and returns 0; then those of attributes() are to be switched on.
     std::uint32_t bind(const Moving& moving, const DrawMesh& mesh, std::size_t part);
-    void release_loose_arrays();
+    /// One bit for each vertex attribute that is read.
+    [[nodiscard]] unsigned attributes(const Moving& moving, const DrawMesh& mesh) const;
 
     /// One sentence on how many surfaces are skinned in which way and why; empty without skins.
     [[nodiscard]] std::string notice() const;
@@ -85,10 +86,10 @@ private:
         std::vector<gl::Buffer> skin;  ///< joints and weights of each part; empty where the CPU skins
         bool wide_joints = false;      ///< 16 bits; else 8
     };
-    /// 28 bytes, as the static layout has these three.
+    /// 20 bytes, as the static layout of 32-bit positions has these three.
     struct StreamVertex {
         std::array<float, 3> position;
-        std::array<std::int16_t, 4> normal, tangent;
+        glm::i16vec2 normal, tangent;  ///< octahedral
     };
 
     int mesh_data(const Scene& scene, int mesh);

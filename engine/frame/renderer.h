@@ -105,9 +105,10 @@ public:
     /// Claims what a program made with that define reads; returns the location for draw_surface(). `program` is current
     /// afterwards.
     int claim_skin(gl::Program& program);
-    /// Device texture of a scene texture, uploaded once. `decoded`: sRGB is decoded on fetch (ES 3.0); else the shader
-    /// gets the bytes as they are.
-    [[nodiscard]] std::uint32_t texture(const Texture& texture, bool decoded);
+    /// Device texture of a scene texture, uploaded once for each use.
+    [[nodiscard]] std::uint32_t texture(const Texture& texture, const TextureUse& use);
+    /// The same for packed_surface_map() of two textures that are sampled alike.
+    [[nodiscard]] std::uint32_t packed_texture(const Texture& normals, const Texture& metallic_roughness);
     /// Bytes of every texture on the device, mip levels included.
     [[nodiscard]] std::size_t texture_bytes() const { return texture_bytes_ + own_texture_bytes_; }
     /// Adds a texture that an effect has uploaded itself to that sum.
@@ -150,6 +151,7 @@ private:
     void finish_frame();
     void draw_part(const DrawMesh& mesh, const DrawPart& part);
     void update_moving_meshes();
+    void enable_attributes(unsigned wanted);
     void draw_passes(const View& view, PassTimer* timer);
 
     gl::EntryPoints& gl_;

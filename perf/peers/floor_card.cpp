@@ -43,6 +43,7 @@ private:
         int clip_from_local;
         int base_color;
         int skin;
+        int uv_range;
         int surface;
         std::vector<std::pair<int, std::uint32_t>> textures;  ///< unit, name
     };
@@ -70,7 +71,8 @@ void FloorWork::add_draw(Renderer& renderer, const EffectCard& card, int index, 
     std::vector<std::string_view> defines;
     std::vector<const char*> samplers;
     Draw draw{
-        .program = nullptr, .clip_from_local = -1, .base_color = -1, .skin = -1, .surface = index, .textures = {}};
+        .program = nullptr, .clip_from_local = -1, .base_color = -1, .skin = -1, .uv_range = -1, .surface = index,
+        .textures = {}};
     for (const Map& map :
          {Map{material.base_color_texture, "BASE_COLOR_MAP", "base_color_map", true},
           Map{material.metallic_roughness_texture, "METALLIC_ROUGHNESS_MAP", "metallic_roughness_map", false},
@@ -78,14 +80,17 @@ void FloorWork::add_draw(Renderer& renderer, const EffectCard& card, int index, 
           Map{material.emissive_texture, "EMISSIVE_MAP", "emissive_map", true}}) {
         if (!fetches || !map.texture) continue;
         defines.push_back(map.define);
-        draw.textures.emplace_back(static_cast<int>(samplers.size()),
-                                   renderer.texture(map.texture, map.color && decoded));
+        draw.textures.emplace_back(
+            static_cast<int>(samplers.size()),
+            renderer.texture(map.texture, {.decoded = map.color && decoded,
+                                           .kind = map.color ? TexelKind::color : TexelKind::data}));
         samplers.push_back(map.sampler);
     }
     if (const std::string_view skin = renderer.skin_define(index); !skin.empty()) defines.push_back(skin);
     draw.program = &renderer.program(card, 0, defines);
     draw.clip_from_local = draw.program->uniform("clip_from_local");
     draw.base_color = draw.program->uniform("base_color");
+    draw.uv_range = draw.program->uniform_if_used("uv_range");
     draw.skin = renderer.claim_skin(*draw.program);
     for (std::size_t unit = 0; unit < samplers.size(); ++unit) {
         renderer.gl().Uniform1i(draw.program->uniform(samplers[unit]), static_cast<int>(unit));
@@ -106,7 +111,9 @@ void FloorWork::draw(Renderer& renderer, const View& view, int) {
         renderer.set_cull(!material.double_sided);
         for (const auto& [unit, texture] : draw.textures) renderer.bind_texture(unit, texture);
         renderer.gl().Uniform4fv(draw.base_color, 1, &material.base_color.x);
-        renderer.gl().UniformMatrix4fv(draw.clip_from_local, 1, GL_FALSE, &clip[0][0]);
+        const glm::mat4 stored = from_stored(clip, mesh.storage);
+        renderer.gl().UniformMatrix4fv(draw.clip_from_local, 1, GL_FALSE, &stored[0][0]);
+        if (draw.uv_range >= 0) renderer.gl().Uniform4fv(draw.uv_range, 1, &mesh.storage.uv_range.x);
         renderer.draw_surface(draw.surface, draw.skin);
     }
 }

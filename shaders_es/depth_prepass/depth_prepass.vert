@@ -1,7 +1,7 @@
 // Depth alone, from the same expression as surface.vert so that both give the same depths.
 #include "common/mesh_vertex.glsl"
 
-VERTEX_IN vec3 position;
+VERTEX_IN vec3 position;  // local, as stored
 uniform highp mat4 clip_from_local;
 
 invariant gl_Position;

@@ -82,10 +82,15 @@ public:
         renderer.set_color_mask(false);
         renderer.set_blend(Blend::none);
         renderer.set_depth(true, true, GL_LESS);
+        const ViewSpace space = view_space(view);
         for (const Draw& draw : draws_) {
             const Surface& surface = renderer.scene().surfaces[static_cast<std::size_t>(draw.surface)];
-            const glm::mat4 matrix = clip_from_local(view, surface.world_from_local);
-            if (outside_view(renderer.box(draw.surface), matrix)) continue;
+            const DrawMesh& mesh = renderer.mesh(surface.mesh);
+            const glm::mat4 matrix =
+                clip_from_stored(space, eye_from_stored(space, surface.world_from_local, mesh.stored));
+            // What changes its shape is stored as it is, so that its box needs no other measure.
+            const bool moves = changes_shape(renderer.scene(), surface);
+            if (outside_view(moves ? renderer.box(draw.surface) : mesh.stored_box, matrix)) continue;
             const Variant& variant = variants_[draw.variant];
             renderer.use(*variant.program);
             renderer.set_cull(!renderer.scene().materials[static_cast<std::size_t>(surface.material)].double_sided);

@@ -14,6 +14,7 @@ set(HALFFRAME_PUBLIC_HEADERS
   engine/frame/effect_card.h
   engine/frame/frame_plan.h
   engine/frame/image.h
+  engine/frame/motion.h
   engine/frame/pass_timer.h
   engine/frame/renderer.h
   engine/frame/motion.h

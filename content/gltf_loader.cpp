@@ -11,6 +11,8 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "content/gltf_extensions.h"
+#include "content/gltf_instances.h"
 #include "content/gltf_materials.h"
 #include "content/mesh_tools.h"
 #include "engine/error.h"
@@ -107,8 +109,11 @@ public:
                 fail(fmt::format("/nodes/{}", visit.node), "the transforms down to this node leave the range of float");
             }
             const bool moves = visit.moves || animated_[visit.node];
-            add_surfaces(visit.node, world_from_local, moves);
+            add_all_surfaces(visit.node, world_from_local, moves);
             add_camera(visit.node, world_from_local);
+            if (auto light = light_of_node(document_, visit.node, world_from_local)) {
+                scene_.lights.push_back(std::move(*light));
+            }
             for (auto child = node.children.rbegin(); child != node.children.rend(); ++child) {
                 open.push_back({static_cast<std::size_t>(*child), world_from_local, moves});
             }
@@ -143,6 +148,22 @@ private:
             }
         }
         return {result.rbegin(), result.rend()};
+    }
+
+    /// One set of surfaces, or one for every instance.
+    void add_all_surfaces(std::size_t node, const glm::mat4& world_from_local, bool moves) {
+        const auto instances = instances_of_node(document_, gltf_, node);
+        if (!instances) {
+            add_surfaces(node, world_from_local, moves);
+            return;
+        }
+        if (scene_.surfaces.size() + instances->size() > kMostSurfaces) {
+            fail(fmt::format("/nodes/{}", node),
+                 fmt::format("its {} instances make more than {} surfaces", instances->size(), kMostSurfaces));
+        }
+        for (const glm::mat4& local_from_instance : *instances) {
+            add_surfaces(node, world_from_local * local_from_instance, moves);
+        }
     }
 
     void add_surfaces(std::size_t node_index, const glm::mat4& world_from_local, bool moves) {
@@ -183,10 +204,8 @@ private:
             return known->second;
         }
         const int material = gltf_.model.meshes[mesh].primitives[primitive].material;
-        const bool normal_map =
-            material >= 0 && gltf_.model.materials[static_cast<std::size_t>(material)].normalTexture.index >= 0;
-        std::optional<Mesh> read = read_primitive(
-            gltf_, mesh, primitive, {uv_set_of_material(document_, material), normal_map}, so_far_, scene_.notices);
+        std::optional<Mesh> read =
+            read_primitive(gltf_, mesh, primitive, uv_of_material(document_, material), so_far_, scene_.notices);
         int result = -1;
         if (read) {
             scene_.meshes.push_back(mirror ? mirrored(*read) : std::move(*read));
@@ -258,11 +277,13 @@ void add_content_notices(const JsonPlace& root, std::vector<std::string>& notice
     });
 }
 
-Scene load_checked(const std::filesystem::path& file) {
+Scene load_checked(const std::filesystem::path& file, const LoadOptions& options) {
     GltfDocument document = read_gltf_document(file);
     check_gltf(document);
+    apply_choices(document, options);
     GltfResources resources = read_gltf_resources(document);
     document.binary_chunk.reset();
+    decode_meshopt(document, resources);
     GltfModel gltf = parse_gltf_model(document, std::move(resources), images_used_by_materials(document));
     Scene scene;
     scene.name = file.stem().string();
@@ -277,9 +298,9 @@ Scene load_checked(const std::filesystem::path& file) {
 
 }  // namespace
 
-Scene load_gltf(const std::filesystem::path& file) {
+Scene load_gltf(const std::filesystem::path& file, const LoadOptions& options) {
     try {
-        return load_checked(file);
+        return load_checked(file, options);
     } catch (const std::bad_alloc&) {
         throw Error(Fault::input, fmt::format("{}: needs more memory than there is; split the asset", file.string()));
     } catch (const std::length_error&) {

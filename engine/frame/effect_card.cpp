@@ -59,6 +59,9 @@ gl::ProgramDescription describe_variant(const EffectCard& card, const ShaderVari
     }
     description.attributes = {
         {"position", kPosition}, {"normal", kNormal}, {"tangent", kTangent}, {"uv", kUv}, {"color", kColor}};
+    // Named only where it is read, so that the calls of every other program stay what they are.
+    if (std::ranges::any_of(defines, [](std::string_view define) { return define.ends_with("_FROM_1"); }))
+        description.attributes.emplace_back("uv1", kUv1);
     return description;
 }
 

@@ -555,11 +555,14 @@ void Renderer::draw_mesh(const DrawMesh& mesh) {
             set_vertex_layout(gl_);
             if (part.indices) gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, part.indices.name());
         }
+        const bool loose_uv1 = part.uv1 && !part.array;
+        if (loose_uv1) set_uv1_layout(gl_, part);
         if (part.indices) {
             gl_.DrawElements(mesh.mode, part.count, part.index_type, nullptr);
         } else {
             gl_.DrawArrays(mesh.mode, 0, part.count);
         }
+        if (loose_uv1) gl_.DisableVertexAttribArray(kUv1);  // no other mesh's draw may find it on
     }
 }
 

@@ -105,8 +105,15 @@ DrawPart upload_piece(gl::EntryPoints& gl, const gl::Caps& caps, const MeshPiece
                           piece.indices.data(), GL_STATIC_DRAW);
         }
     }
+    if (!piece.uv1.empty()) part.uv1 = gl::create<gl::Kind::buffer>(gl);
+    if (part.array) set_vertex_layout(gl);
+    if (part.uv1) {
+        gl.BindBuffer(GL_ARRAY_BUFFER, part.uv1.name());
+        gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(piece.uv1.size() * sizeof(glm::vec2)), piece.uv1.data(),
+                      GL_STATIC_DRAW);
+        if (part.array) set_uv1_layout(gl, part);
+    }
     if (part.array) {
-        set_vertex_layout(gl);
         gl.BindVertexArray(0);
     }
     return part;
@@ -163,6 +170,13 @@ Image resampled(const Image& image, int width, int height) {
     return out;
 }
 
+GLint minify_filter(const Texture& texture) {
+    const Minify minify = texture.minify.value_or(Minify{.linear = texture.linear, .between = texture.linear});
+    if (!texture.mipmaps) return minify.linear ? GL_LINEAR : GL_NEAREST;
+    if (minify.between) return minify.linear ? GL_LINEAR_MIPMAP_LINEAR : GL_NEAREST_MIPMAP_LINEAR;
+    return minify.linear ? GL_LINEAR_MIPMAP_NEAREST : GL_NEAREST_MIPMAP_NEAREST;
+}
+
 bool is_power_of_two(int x) { return std::has_single_bit(static_cast<unsigned>(x)); }
 
 }  // namespace
@@ -170,7 +184,7 @@ bool is_power_of_two(int x) { return std::has_single_bit(static_cast<unsigned>(x
 std::vector<MeshPiece> packed_pieces(const Mesh& mesh, std::size_t max_vertices) {
     std::vector<MeshPiece> pieces;
     if (mesh.positions.size() <= max_vertices) {
-        MeshPiece whole{.primitive = mesh.primitive, .vertices = {}, .indices = mesh.indices};
+        MeshPiece whole{.primitive = mesh.primitive, .vertices = {}, .uv1 = mesh.uv1, .indices = mesh.indices};
         whole.vertices.reserve(mesh.positions.size());
         for (std::size_t i = 0; i < mesh.positions.size(); ++i) whole.vertices.push_back(packed_vertex(mesh, i));
         pieces.push_back(std::move(whole));
@@ -185,7 +199,7 @@ std::vector<MeshPiece> packed_pieces(const Mesh& mesh, std::size_t max_vertices)
     std::unordered_map<std::uint32_t, std::uint32_t> local;
     for (std::size_t i = 0; i + list.corners <= list.indices.size(); i += list.corners) {
         if (pieces.empty() || pieces.back().vertices.size() + list.corners > max_vertices) {
-            pieces.push_back({.primitive = list.primitive, .vertices = {}, .indices = {}});
+            pieces.push_back({.primitive = list.primitive, .vertices = {}, .uv1 = {}, .indices = {}});
             local.clear();
         }
         MeshPiece& piece = pieces.back();
@@ -193,6 +207,7 @@ std::vector<MeshPiece> packed_pieces(const Mesh& mesh, std::size_t max_vertices)
             const std::uint32_t index = list.indices[i + corner];
             const auto [found, added] = local.try_emplace(index, static_cast<std::uint32_t>(piece.vertices.size()));
             if (added) piece.vertices.push_back(packed_vertex(mesh, index));
+            if (added && !mesh.uv1.empty()) piece.uv1.push_back(mesh.uv1[index]);
             piece.indices.push_back(found->second);
         }
     }
@@ -212,12 +227,19 @@ void set_vertex_layout(gl::EntryPoints& gl) {
     }
 }
 
+void set_uv1_layout(gl::EntryPoints& gl, const DrawPart& part) {
+    gl.BindBuffer(GL_ARRAY_BUFFER, part.uv1.name());
+    gl.VertexAttribPointer(kUv1, 2, GL_FLOAT, GL_FALSE, sizeof(glm::vec2), nullptr);
+    gl.EnableVertexAttribArray(kUv1);
+}
+
 DrawMesh upload_mesh(gl::EntryPoints& gl, const gl::Caps& caps, const Mesh& mesh) {
     DrawMesh draw;
     draw.box = local_box(mesh);
     draw.has_normals = !mesh.normals.empty();
     draw.has_tangents = !mesh.tangents.empty();
     draw.has_colors = !mesh.colors.empty();
+    draw.has_uv1 = !mesh.uv1.empty();
     draw.mode = gl_mode(mesh.primitive);
     for (const MeshPiece& piece : packed_pieces(mesh, caps.index_uint ? ~std::size_t{0} : 65536)) {
         draw.parts.push_back(upload_piece(gl, caps, piece));
@@ -263,9 +285,7 @@ std::uint32_t TextureStore::get(const Scene& scene, const Texture& texture, bool
     gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, wrap(texture.wrap_u));
     gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, wrap(texture.wrap_v));
     gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, texture.linear ? GL_LINEAR : GL_NEAREST);
-    const int minify = texture.mipmaps ? (texture.linear ? GL_LINEAR_MIPMAP_LINEAR : GL_NEAREST_MIPMAP_NEAREST)
-                                       : (texture.linear ? GL_LINEAR : GL_NEAREST);
-    gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, minify);
+    gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, minify_filter(texture));
     std::size_t bytes = static_cast<std::size_t>(image.width) * image.height * 4;
     if (texture.mipmaps) {
         gl_.GenerateMipmap(GL_TEXTURE_2D);

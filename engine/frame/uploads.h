@@ -16,6 +16,7 @@ namespace halfframe {
 /// A piece of a mesh that one draw call covers: all of it, unless the device lacks 32-bit indices.
 struct DrawPart {
     gl::Buffer vertices;
+    gl::Buffer uv1;         ///< the second set, vec2 floats; empty: the mesh has none
     gl::Buffer indices;     ///< empty: drawn in order
     gl::VertexArray array;  ///< empty where the device has none
     std::uint32_t index_type = 0;
@@ -30,12 +31,14 @@ struct DrawMesh {
     bool has_normals = false;
     bool has_tangents = false;
     bool has_colors = false;
+    bool has_uv1 = false;
 };
 
 /// A mesh, or a piece of one, as the device will have it.
 struct MeshPiece {
     Primitive primitive = Primitive::triangles;
     std::vector<PackedVertex> vertices;
+    std::vector<glm::vec2> uv1;  ///< as long as `vertices`, or empty
     std::vector<std::uint32_t> indices;
 };
 
@@ -47,6 +50,8 @@ struct MeshPiece {
 
 /// Sets the five attributes of PackedVertex on the buffer bound to GL_ARRAY_BUFFER.
 void set_vertex_layout(gl::EntryPoints& gl);
+/// Sets kUv1 on the part's own buffer of it, which stays bound to GL_ARRAY_BUFFER.
+void set_uv1_layout(gl::EntryPoints& gl, const DrawPart& part);
 
 /// Pixels halved until they fit `max_size`, then, if `power_of_two`, filtered to the nearest power of two not above it.
 [[nodiscard]] Image fitted(const Image& image, int max_size, bool power_of_two);

@@ -5,7 +5,17 @@
 
 namespace halfframe {
 
-enum VertexAttribute : int { kPosition = 0, kNormal = 1, kTangent = 2, kUv = 3, kColor = 4 };
+/// 8 is the minimum of ES 2.0.
+enum VertexAttribute : int {
+    kPosition = 0,
+    kNormal = 1,
+    kTangent = 2,
+    kUv = 3,
+    kColor = 4,
+    kUv1 = 5,
+    kJoints = 6,
+    kWeights = 7,
+};
 
 /// 40 bytes. Directions are 16-bit normalised: 0.002 degrees worst error, which no tier can see.
 struct PackedVertex {

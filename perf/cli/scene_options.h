@@ -24,6 +24,8 @@ struct SceneOptions {
     std::string storage = "auto";
     std::string environment;  ///< empty: the scene's own
     std::string cache;        ///< empty: the user's cache folder
+    std::string gltf_scene;
+    std::string variant;
     std::string camera;
     std::string eye;
     std::string target;

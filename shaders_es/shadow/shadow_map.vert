@@ -3,7 +3,7 @@ VERTEX_IN vec3 position;  // [m] local
 uniform highp mat4 clip_from_local;
 #ifdef ALPHA_MASK
 #ifdef BASE_COLOR_MAP
-VERTEX_IN vec2 uv;
+#include "common/uv_mapping.glsl"
 VERTEX_OUT FULL vec2 vertex_uv;  // FULL: as in surface.vert
 #endif
 #ifdef VERTEX_COLOR
@@ -16,7 +16,7 @@ void main() {
     gl_Position = clip_from_local * vec4(position, 1.0);
 #ifdef ALPHA_MASK
 #ifdef BASE_COLOR_MAP
-    vertex_uv = uv;
+    vertex_uv = first_uv();
 #endif
 #ifdef VERTEX_COLOR
     vertex_alpha = color.a;

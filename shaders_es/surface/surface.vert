@@ -4,11 +4,11 @@
 #include "surface/surface_limits.h"
 #include "surface/surface_lights.glsl"
 #include "common/maths.glsl"
+#include "common/uv_mapping.glsl"
 
 VERTEX_IN vec3 position;  // [m] local
 VERTEX_IN vec4 normal;    // xyz unit
 VERTEX_IN vec4 tangent;   // xyz unit, w handedness
-VERTEX_IN vec2 uv;
 VERTEX_IN vec4 color;     // linear
 
 uniform highp mat4 clip_from_local;
@@ -18,6 +18,9 @@ uniform highp vec4 toward_eye;         // xyz: direction to the eye if orthograp
 
 VERTEX_OUT FULL vec3 vertex_to_eye;  // FULL: positions in metres need more than 11 bits
 VERTEX_OUT FULL vec2 vertex_uv;      // FULL: a 2048-texel repeat is past half's 11 bits
+#ifdef UV_B
+VERTEX_OUT FULL vec2 vertex_uv_b;
+#endif
 #ifndef UNLIT
 VERTEX_OUT HALF vec3 vertex_normal;
 #endif
@@ -69,7 +72,10 @@ void main() {
 #endif
     vec3 at = (eye_from_local * vec4(position, 1.0)).xyz;
     vertex_to_eye = -at * toward_eye.w;
-    vertex_uv = uv;
+    vertex_uv = first_uv();
+#ifdef UV_B
+    vertex_uv_b = second_uv();
+#endif
 #ifndef UNLIT
     vec3 n = normalize((normal_from_local * vec4(normal.xyz, 0.0)).xyz);
     vertex_normal = n;

@@ -338,16 +338,16 @@ TEST_F(GltfContent, GlbAndFilesWithPercentSigns) {
 
 TEST_F(GltfContent, WhatIsLeftOutIsSaidOnce) {
     json document = textured_document();
-    document["extensionsUsed"] = {"KHR_lights_punctual"};
+    document["extensionsUsed"] = {"KHR_materials_clearcoat"};
     document["animations"] =
         json::array({{{"samplers", {{{"input", 0}, {"output", 1}}}},
                       {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "scale"}}}}}}}});
     document["skins"] = json::array({{{"joints", {0}}}});
     document["meshes"][0]["primitives"][0]["targets"] = json::array({{{"POSITION", 1}}, {{"POSITION", 1}}});
-    document["materials"][0]["emissiveTexture"]["texCoord"] = 1;
+    document["materials"][0]["emissiveTexture"]["texCoord"] = 2;
     const Scene scene = load(document);
     ASSERT_EQ(scene.notices.size(), 5u);
-    EXPECT_NE(scene.notices[0].find("KHR_lights_punctual"), std::string::npos);
+    EXPECT_NE(scene.notices[0].find("KHR_materials_clearcoat"), std::string::npos);
     EXPECT_NE(scene.notices[1].find("Animations"), std::string::npos);
     EXPECT_NE(scene.notices[2].find("bind pose"), std::string::npos);
     EXPECT_NE(scene.notices[3].find("Morph"), std::string::npos);

@@ -5,8 +5,10 @@
 #include <span>
 #include <vector>
 
+#include "engine/effects/surface/surface_textures.h"
 #include "engine/frame/effect_card.h"
 #include "engine/frame/renderer.h"
+#include "engine/frame/uv_rows.h"
 #include "shaders_es/surface/surface_limits.h"
 
 namespace halfframe {
@@ -25,6 +27,7 @@ private:
     struct Variant {
         gl::Program* program = nullptr;
         bool maps_roughness = false;
+        int uv_mapping = -1, uv_b_mapping = -1, specular_factors = -1;
         int clip_from_local = -1, eye_from_local = -1, normal_from_local = -1, toward_eye = -1;
         int base_color = -1, emissive = -1, factors = -1, ambient = -1, parallel_eye = -1;
         int sun_direction = -1, sun_color = -1;
@@ -39,17 +42,22 @@ private:
         int surface = 0;
         int material = 0;
         bool double_sided = false;
+        UvRows uv_mapping{}, uv_b_mapping{};
         std::vector<TextureBinding> textures;
         std::vector<int> lights;
     };
 
     [[nodiscard]] std::vector<std::string_view> defines_of(const Renderer& renderer, const Surface& surface,
-                                                           std::span<const int> lights) const;
-    int variant_of(Renderer& renderer, const std::vector<std::string_view>& defines);
+                                                           std::span<const int> lights,
+                                                           const SurfaceTextures& textures) const;
+    int variant_of(Renderer& renderer, const std::vector<std::string_view>& defines,
+                   std::span<const SurfaceTexture> textures);
     void add_draw(Renderer& renderer, int surface);
     void sort_by_distance(const Renderer& renderer, const View& view);
     void set_variant(Renderer& renderer, const View& view, const Variant& variant);
     void set_material(Renderer& renderer, const View& view, const Variant& variant, const Draw& draw);
+    [[nodiscard]] glm::vec4 base_color_of(const Renderer& renderer, const View& view, const Material& material,
+                                          bool unlit) const;
     void set_matrices(Renderer& renderer, const View& view, const Variant& variant, const Draw& draw,
                       const glm::mat4& clip);
     [[nodiscard]] float fragment_length_scale(const Renderer& renderer, const View& view, const Draw& draw) const;

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "content/gltf_extensions.h"
+#include "content/gltf_extras.h"
 #include "engine/error.h"
 
 namespace halfframe::content {
@@ -223,6 +224,7 @@ void check_gltf(GltfDocument& document) {
     check_gltf_data(document);
     check_gltf_scenes(document);
     check_gltf_extensions(document);
+    check_gltf_extras(document);
 }
 
 }  // namespace halfframe::content

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "content/gltf_extensions.h"
+#include "content/gltf_extras.h"
 
 namespace halfframe::content {
 namespace {
@@ -55,6 +56,8 @@ std::optional<Light> light_of_node(const GltfDocument& document, std::size_t nod
         light.inner_cone_rad = number_or(source.at("spot"), "innerConeAngle", 0.0f);
         light.outer_cone_rad = number_or(source.at("spot"), "outerConeAngle", 0.785398163f);
     }
+    apply_extras(source, ExtrasOwner::light, {.light = &light});
+    light.radius_m = std::min(light.radius_m, 0.99f * light.range_m);  // a sphere ends before its light does
     return light;
 }
 

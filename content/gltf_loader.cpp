@@ -12,6 +12,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "content/gltf_extensions.h"
+#include "content/gltf_extras.h"
 #include "content/gltf_instances.h"
 #include "content/gltf_materials.h"
 #include "content/mesh_tools.h"
@@ -192,6 +193,9 @@ private:
             surface.material = materials_.scene_material(gltf_.model.meshes[mesh].primitives[i].material);
             surface.world_from_local = world_from_local;
             surface.dynamic = moves || node.skin >= 0;
+            const JsonPlace root = document_.root();
+            apply_extras(root.at("meshes").at(mesh), ExtrasOwner::mesh, {.surface = &surface});
+            apply_extras(root.at("nodes").at(node_index), ExtrasOwner::node, {.surface = &surface});
             expect_in_range(node_index, surface);
             scene_.surfaces.push_back(std::move(surface));
         }
@@ -248,6 +252,8 @@ private:
             camera.far_m = source.perspective.zfar > 0.0 ? static_cast<float>(source.perspective.zfar)
                                                          : std::max(kFarOfInfinite_m, 1000.0f * camera.near_m);
         }
+        apply_extras(document_.root().at("cameras").at(static_cast<std::size_t>(node.camera)), ExtrasOwner::camera,
+                     {.camera = &camera});
         scene_.cameras.push_back(std::move(camera));
     }
 
@@ -290,6 +296,10 @@ Scene load_checked(const std::filesystem::path& file, const LoadOptions& options
     scene.notices = document.notices;
     add_content_notices(document.root(), scene.notices);
     SceneBuilder(document, gltf, scene).add_nodes();
+    if (const std::size_t scenes = count_of(document.root(), "scenes"); scenes > 0) {
+        const std::size_t chosen = index_in(document.root(), "scene", scenes, "scenes").value_or(0);
+        apply_extras(document.root().at("scenes").at(chosen), ExtrasOwner::scene, {.scene = &scene});
+    }
     if (scene.surfaces.empty()) {
         add_notice(scene.notices, "There is nothing to draw in the scene.");
     }

@@ -17,7 +17,6 @@ set(HALFFRAME_PUBLIC_HEADERS
   engine/frame/motion.h
   engine/frame/pass_timer.h
   engine/frame/renderer.h
-  engine/frame/motion.h
   engine/frame/scene.h
   engine/frame/tier.h
   engine/frame/uploads.h

@@ -25,6 +25,12 @@ struct LoadOptions {
 /// this loader leaves out is a sentence in Scene::notices.
 [[nodiscard]] Scene load_gltf(const std::filesystem::path& file, const LoadOptions& options = {});
 
+/// `scene` as the bytes of a GLB file that loads back to the same frame: float32 streams, PNG images, extensions where
+/// the scene needs them, extras for the rest. What not_exported() says is left out.
+[[nodiscard]] std::string gltf_binary(const Scene& scene);
+/// What gltf_binary() leaves out of `scene`, one sentence each.
+[[nodiscard]] std::vector<std::string> not_exported(const Scene& scene);
+
 struct BuiltInScene {
     std::string_view name;
     std::string_view purpose;

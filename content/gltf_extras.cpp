@@ -1,20 +1,23 @@
 // The table of keys, their checks, and their JSON schema.
 #include "content/gltf_extras.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <span>
 #include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "content/content.h"
 #include "content/gltf_extensions.h"
 #include "content/nearest.h"
 
 namespace halfframe::content {
 namespace {
 
-enum class ValueKind { boolean, number, color };
+enum class ValueKind { boolean, number, color, environment };
 
 struct Row {
     ExtrasOwner owner;
@@ -33,6 +36,16 @@ Sky& sky_of(const ExtrasTarget& target) {
 }
 
 constexpr std::array kRows{
+    Row{ExtrasOwner::scene, "hf_environment", ValueKind::environment, 0.0, 0.0,
+        "surroundings that light the scene and show in it",
+        [](const glm::vec3& value, const ExtrasTarget& target) {
+            target.surroundings->name = environment_names()[static_cast<std::size_t>(value.x)];
+        }},
+    Row{ExtrasOwner::scene, "hf_environment_size", ValueKind::number, 16.0, 512.0,
+        "texels a side of the surroundings: 16, 32, 64, 128, 256 or 512",
+        [](const glm::vec3& value, const ExtrasTarget& target) {
+            target.surroundings->size = 1 << std::lround(std::log2(value.x));
+        }},
     Row{ExtrasOwner::scene, "hf_ambient", ValueKind::color, 0.0, kMostLight, "light from everywhere, linear",
         [](const glm::vec3& value, const ExtrasTarget& target) { target.scene->ambient = value; }},
     Row{ExtrasOwner::scene, "hf_background", ValueKind::color, 0.0, 1.0, "display colour behind everything",
@@ -90,6 +103,14 @@ glm::vec3 value_of(const Row& row, const JsonPlace& place) {
     glm::vec3 value(0.0f);
     if (row.kind == ValueKind::boolean) {
         value.x = place.value().is_boolean() ? (place.boolean() ? 1.0f : 0.0f) : static_cast<float>(place.whole(0, 1));
+    } else if (row.kind == ValueKind::environment) {
+        const std::vector<std::string> names = environment_names();
+        const auto found = std::ranges::find(names, place.text());
+        if (found == names.end()) {
+            place.fail(fmt::format("there is no environment '{}'{}", place.text(), did_you_mean(place.text(), names)),
+                       fmt::format("choose one of {}", fmt::join(names, ", ")));
+        }
+        value.x = static_cast<float>(found - names.begin());
     } else if (row.kind == ValueKind::number) {
         value.x = static_cast<float>(place.number(row.lowest, row.highest));
     } else {
@@ -144,6 +165,7 @@ std::string extras_schema() {
             const nlohmann::ordered_json number = {
                 {"type", "number"}, {"minimum", row.lowest}, {"maximum", row.highest}};
             nlohmann::ordered_json type = number;
+            if (row.kind == ValueKind::environment) type = {{"enum", environment_names()}};
             if (row.kind == ValueKind::boolean) type = {{"enum", {false, true, 0, 1}}};
             if (row.kind == ValueKind::color)
                 type = {{"type", "array"}, {"items", number}, {"minItems", 3}, {"maxItems", 3}};

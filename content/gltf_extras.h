@@ -12,9 +12,16 @@ namespace halfframe::content {
 /// The object of a glTF file that an `extras` belongs to.
 enum class ExtrasOwner { scene, node, mesh, camera, light };
 
+/// The environment that a file asks for: a built-in one, made when all is read.
+struct Surroundings {
+    std::string name;
+    int size = 128;
+};
+
 /// What a row writes to; the one that fits its owner is set.
 struct ExtrasTarget {
     Scene* scene = nullptr;
+    Surroundings* surroundings = nullptr;  ///< with `scene`
     Surface* surface = nullptr;
     Camera* camera = nullptr;
     Light* light = nullptr;

@@ -45,11 +45,15 @@ std::optional<Light> light_of_node(const GltfDocument& document, std::size_t nod
             light.color[i] = static_cast<float>(source.at("color").at(static_cast<std::size_t>(i)).number());
     }
     // A white Lambert surface sends back 1 / pi of the illuminance: candela at 1 m, or lux of a sun.
-    light.color *= number_or(source, "intensity", 1.0f) / std::numbers::pi_v<float>;
+    const double share = (source.has("intensity") ? source.at("intensity").number() : 1.0) / std::numbers::pi_v<double>;
+    for (int i = 0; i < 3; ++i) light.color[i] = static_cast<float>(static_cast<double>(light.color[i]) * share);
     light.position = glm::vec3(world_from_local[3]);
     const glm::vec3 back(world_from_local[2]);
     const float length = glm::length(back);
-    light.direction = length > 0.0f && std::isfinite(length) ? -back / length : glm::vec3(0.0f, 0.0f, -1.0f);
+    const bool unit_already = std::abs(length - 1.0f) < 5e-7f;
+    light.direction = unit_already                             ? -back
+                      : length > 0.0f && std::isfinite(length) ? -back / length
+                                                               : glm::vec3(0.0f, 0.0f, -1.0f);
     const float strongest = std::max({light.color.r, light.color.g, light.color.b});
     light.range_m = std::clamp(number_or(source, "range", std::sqrt(strongest / kFaintest)), 1e-3f, kFarthest_m);
     if (light.kind == LightKind::spot) {

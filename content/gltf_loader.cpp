@@ -64,6 +64,13 @@ glm::mat4 without_scale(const glm::mat4& matrix) {
     if (!(glm::length(right) > 0.0f) || !(glm::length(back) > 0.0f)) {
         return glm::translate(glm::mat4(1.0f), glm::vec3(matrix[3]));
     }
+    const glm::mat3 axes(matrix);
+    const glm::mat3 squares = glm::transpose(axes) * axes;
+    bool rigid = glm::determinant(axes) > 0.0f;
+    for (int i = 0; i < 9; ++i) rigid = rigid && std::abs(squares[i / 3][i % 3] - (i % 4 == 0 ? 1.0f : 0.0f)) < 1e-6f;
+    if (rigid) {
+        return matrix;  // without a second rounding
+    }
     const glm::vec3 z = glm::normalize(back);
     const glm::vec3 x = glm::normalize(right);
     return {glm::vec4(x, 0.0f), glm::vec4(glm::cross(z, x), 0.0f), glm::vec4(z, 0.0f), matrix[3]};
@@ -207,17 +214,36 @@ private:
         if (known != meshes_.end()) {
             return known->second;
         }
-        const int material = gltf_.model.meshes[mesh].primitives[primitive].material;
-        std::optional<Mesh> read =
-            read_primitive(gltf_, mesh, primitive, uv_of_material(document_, material), so_far_, scene_.notices);
+        const MaterialUv uv = uv_of_material(document_, gltf_.model.meshes[mesh].primitives[primitive].material);
+        const std::string streams = streams_of(mesh, primitive, uv, mirror);
+        if (const auto same = meshes_by_streams_.find(streams); same != meshes_by_streams_.end()) {
+            return meshes_[{mesh, primitive, mirror}] = same->second;
+        }
+        std::optional<Mesh> read = read_primitive(gltf_, mesh, primitive, uv, so_far_, scene_.notices);
         int result = -1;
         if (read) {
             scene_.meshes.push_back(mirror ? mirrored(*read) : std::move(*read));
             boxes_.push_back(local_box(scene_.meshes.back()));
             result = static_cast<int>(scene_.meshes.size()) - 1;
         }
+        meshes_by_streams_[streams] = result;
         meshes_[{mesh, primitive, mirror}] = result;
         return result;
+    }
+
+    /// Equal for primitives that are one mesh in several materials.
+    std::string streams_of(std::size_t mesh, std::size_t primitive, const MaterialUv& uv, bool mirror) const {
+        const tinygltf::Primitive& source = gltf_.model.meshes[mesh].primitives[primitive];
+        std::string key = fmt::format("{} {} {} {} {}", source.mode, source.indices, mirror, uv.reads[0], uv.reads[1]);
+        for (const auto& [name, accessor] : source.attributes) {
+            key += fmt::format(" {} {}", name, accessor);
+        }
+        if (uv.of_normal_map && !source.attributes.contains("TANGENT")) {
+            const UvMapping& map = *uv.of_normal_map;  // tangents are made for it
+            key += fmt::format(" {} {} {} {} {}", map.set, map.scale.x, map.scale.y, map.rotation_rad, map.offset.x);
+        }
+        const JsonPlace place = document_.root().at("meshes").at(mesh).at("primitives").at(primitive);
+        return place.has("targets") ? key + place.at("targets").value().dump() : key;
     }
 
     void expect_in_range(std::size_t node, const Surface& surface) const {
@@ -263,6 +289,7 @@ private:
     GltfMaterials materials_;
     std::vector<bool> animated_;
     std::map<std::tuple<std::size_t, std::size_t, bool>, int> meshes_;
+    std::map<std::string, int> meshes_by_streams_;
     std::vector<Box> boxes_;  ///< of Scene::meshes
     ReadSoFar so_far_;
 };
@@ -297,8 +324,13 @@ Scene load_checked(const std::filesystem::path& file, const LoadOptions& options
     add_content_notices(document.root(), scene.notices);
     SceneBuilder(document, gltf, scene).add_nodes();
     if (const std::size_t scenes = count_of(document.root(), "scenes"); scenes > 0) {
+        Surroundings surroundings;
         const std::size_t chosen = index_in(document.root(), "scene", scenes, "scenes").value_or(0);
-        apply_extras(document.root().at("scenes").at(chosen), ExtrasOwner::scene, {.scene = &scene});
+        apply_extras(document.root().at("scenes").at(chosen), ExtrasOwner::scene,
+                     {.scene = &scene, .surroundings = &surroundings});
+        if (!surroundings.name.empty()) {
+            scene.environment = environment(surroundings.name, {.size = surroundings.size}).map;
+        }
     }
     if (scene.surfaces.empty()) {
         add_notice(scene.notices, "There is nothing to draw in the scene.");

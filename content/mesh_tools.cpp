@@ -105,6 +105,8 @@ std::size_t repair_normals(Mesh& mesh) {
     std::vector<bool> bad(mesh.normals.size(), false);
     std::size_t bad_count = 0;
     for (std::size_t i = 0; i < mesh.normals.size(); ++i) {
+        // 5e-7: unit but for the rounding of floats, which would only be rounded again.
+        if (std::abs(glm::dot(mesh.normals[i], mesh.normals[i]) - 1.0f) < 5e-7f) continue;
         mesh.normals[i] = unit_or(mesh.normals[i], glm::vec3(0.0f));
         bad[i] = mesh.normals[i] == glm::vec3(0.0f);
         bad_count += bad[i] ? 1 : 0;
@@ -181,6 +183,12 @@ std::vector<glm::vec2> mapped(const std::vector<glm::vec2>& uv, const UvMapping&
 
 void repair_tangents(Mesh& mesh) {
     for (std::size_t i = 0; i < mesh.tangents.size(); ++i) {
+        const glm::vec3 as_it_is(mesh.tangents[i]);
+        const bool unit_already = std::abs(glm::dot(as_it_is, as_it_is) - 1.0f) < 5e-7f;
+        if (unit_already && std::abs(glm::dot(as_it_is, mesh.normals[i])) < 5e-7f &&
+            std::abs(mesh.tangents[i].w) == 1.0f) {
+            continue;
+        }
         const glm::vec3 given(unit_or(glm::vec3(mesh.tangents[i]), glm::vec3(0.0f)));
         const glm::vec3 flat = given - mesh.normals[i] * glm::dot(mesh.normals[i], given);
         // Under 0.01 the tangent is the normal but for rounding: its direction means nothing.

@@ -14,11 +14,11 @@ set(HALFFRAME_PUBLIC_HEADERS
   engine/frame/effect_card.h
   engine/frame/frame_plan.h
   engine/frame/image.h
+  engine/frame/motion.h
   engine/frame/pass_timer.h
   engine/frame/moving_meshes.h
   engine/frame/pose.h
   engine/frame/renderer.h
-  engine/frame/motion.h
   engine/frame/scene.h
   engine/frame/skinning.h
   engine/frame/texture_storage.h

@@ -14,9 +14,22 @@
 
 namespace halfframe::content {
 
+/// What of a glTF file is loaded.
+struct LoadOptions {
+    std::string scene;    ///< by name, or by number from 0; empty: the file's default scene
+    std::string variant;  ///< of its materials (KHR_materials_variants), by name or number; empty: the file's own
+};
+
 /// Reads a .gltf or .glb file. Bad or unsupported input: Error(input) that names the file, the place in it (JSON
-/// pointer or byte) and what to try. What the format allows and this loader leaves out is a sentence in Scene::notices.
-[[nodiscard]] Scene load_gltf(const std::filesystem::path& file);
+/// pointer or byte) and what to try. A choice that the file does not offer: Error(usage). What the format allows and
+/// this loader leaves out is a sentence in Scene::notices.
+[[nodiscard]] Scene load_gltf(const std::filesystem::path& file, const LoadOptions& options = {});
+
+/// `scene` as the bytes of a GLB file that loads back to the same frame: float32 streams, PNG images, extensions where
+/// the scene needs them, extras for the rest. What not_exported() says is left out.
+[[nodiscard]] std::string gltf_binary(const Scene& scene);
+/// What gltf_binary() leaves out of `scene`, one sentence each.
+[[nodiscard]] std::vector<std::string> not_exported(const Scene& scene);
 
 struct BuiltInScene {
     std::string_view name;
@@ -25,8 +38,9 @@ struct BuiltInScene {
 };
 [[nodiscard]] const std::vector<BuiltInScene>& built_in_scenes();
 
-/// A built-in name, or a path that ends in .gltf or .glb. Unknown: Error(input) with the names there are.
-[[nodiscard]] Scene open_scene(const std::string& scene);
+/// A built-in name, or a path that ends in .gltf or .glb. Unknown: Error(input) with the names there are. A built-in
+/// scene with options: Error(usage).
+[[nodiscard]] Scene open_scene(const std::string& scene, const LoadOptions& options = {});
 
 /// Lights for a scene that brings none: the documented `studio` rig, a sun, two points and an ambient, sized to the
 /// scene's box. An `environment` (the built-in one called studio goes with it) takes the place of the ambient, so that

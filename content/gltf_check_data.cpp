@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "content/gltf_extensions.h"
+
 namespace halfframe::content {
 namespace {
 
@@ -161,6 +163,7 @@ void check_texture_use(const JsonPlace& root, const JsonPlace& owner, std::strin
         if (use.has("strength")) {
             (void)use.at("strength").number(0.0, 1.0);
         }
+        check_texture_transform(use);
     }
 }
 
@@ -196,10 +199,6 @@ void check_material(const JsonPlace& root, const JsonPlace& material) {
     check_number(material, "alphaCutoff", 0.0, kLargestFloat);
     if (material.has("doubleSided")) {
         (void)material.at("doubleSided").boolean();
-    }
-    if (material.has("extensions") && material.at("extensions").has("KHR_materials_emissive_strength")) {
-        check_number(material.at("extensions").at("KHR_materials_emissive_strength"), "emissiveStrength", 0.0,
-                     kLargestFloat);
     }
 }
 

@@ -2,11 +2,12 @@
 #include "content/gltf_document.h"
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 
 #include <fmt/format.h>
 
+#include "content/gltf_extensions.h"
+#include "content/gltf_extras.h"
 #include "engine/error.h"
 
 namespace halfframe::content {
@@ -16,10 +17,6 @@ constexpr std::uint32_t kJsonChunk = 0x4E4F534A;    // "JSON"
 constexpr std::uint32_t kBinaryChunk = 0x004E4942;  // "BIN\0"
 constexpr std::size_t kGlbHeaderBytes = 12;
 constexpr std::size_t kChunkHeaderBytes = 8;
-
-// Extensions whose effect on the picture is complete here.
-constexpr std::array<std::string_view, 2> kSupportedExtensions{"KHR_materials_emissive_strength",
-                                                               "KHR_mesh_quantization"};
 
 constexpr const char* kAdvice = "check the file with the glTF validator or export it again";
 
@@ -160,7 +157,7 @@ void check_version(GltfDocument& document) {
 }
 
 bool is_supported(std::string_view extension) {
-    return std::find(kSupportedExtensions.begin(), kSupportedExtensions.end(), extension) != kSupportedExtensions.end();
+    return std::ranges::find(supported_extensions(), extension) != supported_extensions().end();
 }
 
 void check_extensions(GltfDocument& document) {
@@ -227,6 +224,8 @@ void check_gltf(GltfDocument& document) {
     check_gltf_data(document);
     check_gltf_scenes(document);
     check_gltf_motion(document);
+    check_gltf_extensions(document);
+    check_gltf_extras(document);
 }
 
 }  // namespace halfframe::content

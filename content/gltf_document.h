@@ -59,8 +59,8 @@ struct GltfResources {
     std::vector<std::string> buffers;
     std::vector<std::string> images;
 };
-/// Reads data URIs, files beside the asset and the GLB's binary chunk. A file must lie in the asset's folder or below
-/// by name; symbolic links are followed.
+/// Reads data URIs, files beside the asset and the GLB's binary chunk. A file must lie in the asset's folder or below,
+/// by name and after symbolic links are followed.
 [[nodiscard]] GltfResources read_gltf_resources(const GltfDocument& document);
 
 /// Size of one element of an accessor [bytes] with the padding of matrix columns; `type` as in glTF ("VEC3", "MAT2").

@@ -12,6 +12,9 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "content/gltf_extensions.h"
+#include "content/gltf_extras.h"
+#include "content/gltf_instances.h"
 #include "content/gltf_materials.h"
 #include "content/gltf_motion.h"
 #include "content/mesh_tools.h"
@@ -65,6 +68,13 @@ glm::mat4 without_scale(const glm::mat4& matrix) {
     if (!(glm::length(right) > 0.0f) || !(glm::length(back) > 0.0f)) {
         return glm::translate(glm::mat4(1.0f), glm::vec3(matrix[3]));
     }
+    const glm::mat3 axes(matrix);
+    const glm::mat3 squares = glm::transpose(axes) * axes;
+    bool rigid = glm::determinant(axes) > 0.0f;
+    for (int i = 0; i < 9; ++i) rigid = rigid && std::abs(squares[i / 3][i % 3] - (i % 4 == 0 ? 1.0f : 0.0f)) < 1e-6f;
+    if (rigid) {
+        return matrix;  // without a second rounding
+    }
     const glm::vec3 z = glm::normalize(back);
     const glm::vec3 x = glm::normalize(right);
     return {glm::vec4(x, 0.0f), glm::vec4(glm::cross(z, x), 0.0f), glm::vec4(z, 0.0f), matrix[3]};
@@ -86,8 +96,12 @@ public:
         keep_moving_nodes();
         scene_.animations = read_animations(document_, gltf_, scene_nodes_, scene_.notices);
         for (const Visit& visit : visits_) {
-            add_surfaces(visit);
+            add_all_surfaces(visit);
             add_camera(visit);
+            if (auto light = light_of_node(document_, visit.node, visit.world_from_local)) {
+                light->node = carrier(visit);
+                scene_.lights.push_back(std::move(*light));
+            }
         }
         place(scene_);
         for (std::size_t i = 0; i < scene_.surfaces.size(); ++i) expect_in_range(i);
@@ -208,6 +222,29 @@ private:
         return {result.rbegin(), result.rend()};
     }
 
+    /// One set of surfaces, or one for every instance.
+    void add_all_surfaces(const Visit& visit) {
+        const auto instances = instances_of_node(document_, gltf_, visit.node);
+        if (!instances) {
+            add_surfaces(visit);
+            return;
+        }
+        if (scene_.surfaces.size() + instances->size() > kMostSurfaces) {
+            fail(fmt::format("/nodes/{}", visit.node),
+                 fmt::format("its {} instances make more than {} surfaces", instances->size(), kMostSurfaces));
+        }
+        if (visit.moves) {
+            add_notice(scene_.notices,
+                       fmt::format("/nodes/{} moves and has instances; these stay where they are.", visit.node));
+        }
+        for (const glm::mat4& local_from_instance : *instances) {
+            Visit instance = visit;
+            instance.moves = false;
+            instance.world_from_local = visit.world_from_local * local_from_instance;
+            add_surfaces(instance);
+        }
+    }
+
     void add_surfaces(const Visit& visit) {
         const tinygltf::Node& node = gltf_.model.nodes[visit.node];
         if (node.mesh < 0) {
@@ -243,6 +280,9 @@ private:
             surface.dynamic = visit.animated || skin >= 0;
             surface.skin = skin;
             surface.node = drawn.morph_targets.empty() ? carrier(visit) : scene_nodes_[visit.node];
+            const JsonPlace root = document_.root();
+            apply_extras(root.at("meshes").at(mesh), ExtrasOwner::mesh, {.surface = &surface});
+            apply_extras(root.at("nodes").at(visit.node), ExtrasOwner::node, {.surface = &surface});
             scene_.surfaces.push_back(std::move(surface));
             nodes_of_surfaces_.push_back(visit.node);
         }
@@ -254,19 +294,36 @@ private:
         if (known != meshes_.end()) {
             return known->second;
         }
-        const int material = gltf_.model.meshes[mesh].primitives[primitive].material;
-        const bool normal_map =
-            material >= 0 && gltf_.model.materials[static_cast<std::size_t>(material)].normalTexture.index >= 0;
-        std::optional<Mesh> read = read_primitive(
-            gltf_, mesh, primitive, {uv_set_of_material(document_, material), normal_map}, so_far_, scene_.notices);
+        const MaterialUv uv = uv_of_material(document_, gltf_.model.meshes[mesh].primitives[primitive].material);
+        const std::string streams = streams_of(mesh, primitive, uv, mirror);
+        if (const auto same = meshes_by_streams_.find(streams); same != meshes_by_streams_.end()) {
+            return meshes_[{mesh, primitive, mirror}] = same->second;
+        }
+        std::optional<Mesh> read = read_primitive(gltf_, mesh, primitive, uv, so_far_, scene_.notices);
         int result = -1;
         if (read) {
             scene_.meshes.push_back(mirror ? mirrored(*read) : std::move(*read));
             boxes_.push_back(local_box(scene_.meshes.back()));
             result = static_cast<int>(scene_.meshes.size()) - 1;
         }
+        meshes_by_streams_[streams] = result;
         meshes_[{mesh, primitive, mirror}] = result;
         return result;
+    }
+
+    /// Equal for primitives that are one mesh in several materials.
+    std::string streams_of(std::size_t mesh, std::size_t primitive, const MaterialUv& uv, bool mirror) const {
+        const tinygltf::Primitive& source = gltf_.model.meshes[mesh].primitives[primitive];
+        std::string key = fmt::format("{} {} {} {} {}", source.mode, source.indices, mirror, uv.reads[0], uv.reads[1]);
+        for (const auto& [name, accessor] : source.attributes) {
+            key += fmt::format(" {} {}", name, accessor);
+        }
+        if (uv.of_normal_map && !source.attributes.contains("TANGENT")) {
+            const UvMapping& map = *uv.of_normal_map;  // tangents are made for it
+            key += fmt::format(" {} {} {} {} {}", map.set, map.scale.x, map.scale.y, map.rotation_rad, map.offset.x);
+        }
+        const JsonPlace place = document_.root().at("meshes").at(mesh).at("primitives").at(primitive);
+        return place.has("targets") ? key + place.at("targets").value().dump() : key;
     }
 
     void expect_in_range(std::size_t surface) const {
@@ -307,6 +364,8 @@ private:
             camera.far_m = source.perspective.zfar > 0.0 ? static_cast<float>(source.perspective.zfar)
                                                          : std::max(kFarOfInfinite_m, 1000.0f * camera.near_m);
         }
+        apply_extras(document_.root().at("cameras").at(static_cast<std::size_t>(node.camera)), ExtrasOwner::camera,
+                     {.camera = &camera});
         scene_.cameras.push_back(std::move(camera));
     }
 
@@ -319,21 +378,33 @@ private:
     std::vector<Visit> visits_;
     std::map<int, int> skins_;
     std::map<std::tuple<std::size_t, std::size_t, bool>, int> meshes_;
+    std::map<std::string, int> meshes_by_streams_;
     std::vector<Box> boxes_;                      ///< of Scene::meshes, as they are
     std::vector<std::size_t> nodes_of_surfaces_;  ///< of the document
     ReadSoFar so_far_;
 };
 
-Scene load_checked(const std::filesystem::path& file) {
+Scene load_checked(const std::filesystem::path& file, const LoadOptions& options) {
     GltfDocument document = read_gltf_document(file);
     check_gltf(document);
+    apply_choices(document, options);
     GltfResources resources = read_gltf_resources(document);
     document.binary_chunk.reset();
+    decode_meshopt(document, resources);
     GltfModel gltf = parse_gltf_model(document, std::move(resources), images_used_by_materials(document));
     Scene scene;
     scene.name = file.stem().string();
     scene.notices = document.notices;
     SceneBuilder(document, gltf, scene).add_nodes();
+    if (const std::size_t scenes = count_of(document.root(), "scenes"); scenes > 0) {
+        Surroundings surroundings;
+        const std::size_t chosen = index_in(document.root(), "scene", scenes, "scenes").value_or(0);
+        apply_extras(document.root().at("scenes").at(chosen), ExtrasOwner::scene,
+                     {.scene = &scene, .surroundings = &surroundings});
+        if (!surroundings.name.empty()) {
+            scene.environment = environment(surroundings.name, {.size = surroundings.size}).map;
+        }
+    }
     if (scene.surfaces.empty()) {
         add_notice(scene.notices, "There is nothing to draw in the scene.");
     }
@@ -342,9 +413,9 @@ Scene load_checked(const std::filesystem::path& file) {
 
 }  // namespace
 
-Scene load_gltf(const std::filesystem::path& file) {
+Scene load_gltf(const std::filesystem::path& file, const LoadOptions& options) {
     try {
-        return load_checked(file);
+        return load_checked(file, options);
     } catch (const std::bad_alloc&) {
         throw Error(Fault::input, fmt::format("{}: needs more memory than there is; split the asset", file.string()));
     } catch (const std::length_error&) {

@@ -1,33 +1,95 @@
-// Materials, textures, samplers, images.
+// Materials, textures, samplers, images. Materials are read from the document, with their extensions.
 #include "content/gltf_materials.h"
 
 #include <array>
+#include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
+
+#include "content/gltf_extensions.h"
 
 namespace halfframe::content {
 namespace {
 
-/// The texture uses of a material that are read, in order of importance.
+/// A texture use of a material: where it stands in the document, and where it goes in a Material.
 struct Slot {
-    const char* owner;  ///< key around it, or nothing
+    const char* extension;  ///< or nothing
+    const char* owner;      ///< key around it, or nothing
     const char* key;
+    bool srgb;
+    Texture Material::*texture;
+    UvMapping Material::*uv;
 };
-constexpr std::array<Slot, 4> kSlots{{{"pbrMetallicRoughness", "baseColorTexture"},
-                                      {"pbrMetallicRoughness", "metallicRoughnessTexture"},
-                                      {nullptr, "normalTexture"},
-                                      {nullptr, "emissiveTexture"}}};
 
+constexpr std::array<Slot, 5> kCoreSlots{
+    {{nullptr, "pbrMetallicRoughness", "baseColorTexture", true, &Material::base_color_texture,
+      &Material::base_color_uv},
+     {nullptr, "pbrMetallicRoughness", "metallicRoughnessTexture", false, &Material::metallic_roughness_texture,
+      &Material::metallic_roughness_uv},
+     {nullptr, nullptr, "normalTexture", false, &Material::normal_texture, &Material::normal_uv},
+     {nullptr, nullptr, "emissiveTexture", true, &Material::emissive_texture, &Material::emissive_uv},
+     {nullptr, nullptr, "occlusionTexture", false, &Material::occlusion_texture, &Material::occlusion_uv}}};
+constexpr std::array<Slot, 2> kSpecularSlots{{{"KHR_materials_specular", nullptr, "specularColorTexture", true,
+                                               &Material::specular_color_texture, &Material::specular_color_uv},
+                                              {"KHR_materials_specular", nullptr, "specularTexture", false,
+                                               &Material::specular_texture, &Material::specular_uv}}};
+constexpr std::array<Slot, 2> kGlossySlots{
+    {{"KHR_materials_pbrSpecularGlossiness", nullptr, "diffuseTexture", true, &Material::base_color_texture,
+      &Material::base_color_uv},
+     {"KHR_materials_pbrSpecularGlossiness", nullptr, "specularGlossinessTexture", true,
+      &Material::specular_smoothness_texture, &Material::specular_smoothness_uv}}};
+
+/// An unlit material has one texture; specular-glossiness takes the place of metallic-roughness, and what the latter
+/// says is its fallback (the extension).
+MaterialModel model_of(const JsonPlace& material) {
+    if (extension(material, "KHR_materials_unlit")) return MaterialModel::unlit;
+    if (extension(material, "KHR_materials_pbrSpecularGlossiness")) return MaterialModel::specular_glossiness;
+    return MaterialModel::metallic_roughness;
+}
+
+/// Calls visit(slot, texture use) for what is drawn of a material, in order of importance.
 template <typename Visit>
 void for_each_texture_use(const JsonPlace& material, Visit&& visit) {
-    for (const Slot& slot : kSlots) {
-        if (slot.owner == nullptr || material.has(slot.owner)) {
-            const JsonPlace owner = slot.owner == nullptr ? material : material.at(slot.owner);
-            if (owner.has(slot.key)) {
-                visit(owner.at(slot.key));
-            }
+    const auto visit_slot = [&](const Slot& slot) {
+        std::optional<JsonPlace> owner = material;
+        if (slot.extension != nullptr) owner = extension(material, slot.extension);
+        if (owner && slot.owner != nullptr) {
+            owner = owner->has(slot.owner) ? std::optional(owner->at(slot.owner)) : std::nullopt;
         }
+        if (owner && owner->has(slot.key)) visit(slot, owner->at(slot.key));
+    };
+    const MaterialModel model = model_of(material);
+    if (model == MaterialModel::unlit) {
+        visit_slot(kCoreSlots[0]);
+        return;
     }
+    if (model == MaterialModel::specular_glossiness) {
+        for (const Slot& slot : kGlossySlots) visit_slot(slot);
+    }
+    for (const Slot& slot : kCoreSlots) {
+        if (model != MaterialModel::specular_glossiness || slot.owner == nullptr) visit_slot(slot);
+    }
+    if (model == MaterialModel::metallic_roughness) {
+        for (const Slot& slot : kSpecularSlots) visit_slot(slot);
+    }
+}
+
+UvMapping uv_mapping_of(const JsonPlace& use) {
+    UvMapping mapping;
+    mapping.set = use.has("texCoord") ? static_cast<int>(use.at("texCoord").whole()) : 0;
+    if (const auto transform = extension(use, "KHR_texture_transform")) {
+        if (transform->has("texCoord")) mapping.set = static_cast<int>(transform->at("texCoord").whole());
+        const auto pair = [&](const char* key, glm::vec2& into) {
+            if (!transform->has(key)) return;
+            for (int i = 0; i < 2; ++i)
+                into[i] = static_cast<float>(transform->at(key).at(static_cast<std::size_t>(i)).number());
+        };
+        pair("offset", mapping.offset);
+        pair("scale", mapping.scale);
+        if (transform->has("rotation")) mapping.rotation_rad = static_cast<float>(transform->at("rotation").number());
+    }
+    return mapping;
 }
 
 Wrap wrap_of(int wrap) {
@@ -38,30 +100,78 @@ Wrap wrap_of(int wrap) {
     }
 }
 
-/// The Scene has one filter for inside a level and magnification: the file's magFilter, else its minFilter's.
+/// Where the file leaves a filter open: linear on magnification, unless minification is asked to be nearest.
 void apply_sampler(const tinygltf::Sampler& sampler, Texture& texture) {
     texture.wrap_u = wrap_of(sampler.wrapS);
     texture.wrap_v = wrap_of(sampler.wrapT);
     const int min = sampler.minFilter;
-    const bool min_is_nearest = min == TINYGLTF_TEXTURE_FILTER_NEAREST ||
-                                min == TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST ||
-                                min == TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR;
-    texture.linear = sampler.magFilter >= 0 ? sampler.magFilter != TINYGLTF_TEXTURE_FILTER_NEAREST : !min_is_nearest;
+    const bool linear = min != TINYGLTF_TEXTURE_FILTER_NEAREST &&
+                        min != TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST &&
+                        min != TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR;
+    texture.linear = sampler.magFilter >= 0 ? sampler.magFilter != TINYGLTF_TEXTURE_FILTER_NEAREST : linear;
     texture.mipmaps = min != TINYGLTF_TEXTURE_FILTER_NEAREST && min != TINYGLTF_TEXTURE_FILTER_LINEAR;
+    if (min < 0) return;
+    const bool between =
+        min == TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR || min == TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR;
+    if (linear != texture.linear || (texture.mipmaps && between != texture.linear))
+        texture.minify = Minify{.linear = linear, .between = texture.mipmaps && between};
 }
 
-glm::vec3 vec3_of(const std::vector<double>& numbers) {
-    return {static_cast<float>(numbers[0]), static_cast<float>(numbers[1]), static_cast<float>(numbers[2])};
+float number_or(const JsonPlace& owner, const char* key, float otherwise) {
+    return owner.has(key) ? static_cast<float>(owner.at(key).number()) : otherwise;
 }
 
-/// KHR_materials_emissive_strength, a plain factor.
-float emissive_strength(const GltfDocument& document, int material) {
-    const JsonPlace place = document.root().at("materials").at(static_cast<std::size_t>(material));
-    if (!place.has("extensions") || !place.at("extensions").has("KHR_materials_emissive_strength")) {
-        return 1.0f;
+template <typename Vector>
+Vector vector_or(const JsonPlace& owner, const char* key, const Vector& otherwise) {
+    if (!owner.has(key)) return otherwise;
+    Vector result{};
+    for (int i = 0; i < Vector::length(); ++i)
+        result[i] = static_cast<float>(owner.at(key).at(static_cast<std::size_t>(i)).number());
+    return result;
+}
+
+/// KHR_materials_ior and KHR_materials_specular. The extension limits reflectance times colour to 1 before the factor:
+/// what is handed on is limited so already.
+void read_specular(const JsonPlace& place, Material& material) {
+    if (const auto ior = extension(place, "KHR_materials_ior")) material.ior = number_or(*ior, "ior", 1.5f);
+    const auto specular = extension(place, "KHR_materials_specular");
+    if (!specular) return;
+    const float ratio = (material.ior - 1.0f) / (material.ior + 1.0f);
+    const float normal = material.ior > 0.0f ? ratio * ratio : 1.0f;
+    const glm::vec3 color = vector_or(*specular, "specularColorFactor", glm::vec3(1.0f));
+    const glm::vec3 limited = normal > 0.0f ? glm::min(color, glm::vec3(1.0f / normal)) : color;
+    material.specular = limited * number_or(*specular, "specularFactor", 1.0f);
+}
+
+void read_model(const JsonPlace& place, Material& material) {
+    material.model = model_of(place);
+    if (material.model == MaterialModel::specular_glossiness) {
+        const JsonPlace glossy = *extension(place, "KHR_materials_pbrSpecularGlossiness");
+        material.base_color = vector_or(glossy, "diffuseFactor", glm::vec4(1.0f));
+        material.specular = vector_or(glossy, "specularFactor", glm::vec3(1.0f));
+        material.smoothness = number_or(glossy, "glossinessFactor", 1.0f);
+        material.metallic = 0.0f;
+        material.roughness = 1.0f - material.smoothness;
+        return;
     }
-    const JsonPlace extension = place.at("extensions").at("KHR_materials_emissive_strength");
-    return extension.has("emissiveStrength") ? static_cast<float>(extension.at("emissiveStrength").number()) : 1.0f;
+    if (place.has("pbrMetallicRoughness")) {
+        const JsonPlace pbr = place.at("pbrMetallicRoughness");
+        material.base_color = vector_or(pbr, "baseColorFactor", glm::vec4(1.0f));
+        material.metallic = number_or(pbr, "metallicFactor", 1.0f);
+        material.roughness = number_or(pbr, "roughnessFactor", 1.0f);
+    }
+    read_specular(place, material);
+}
+
+AlphaMode alpha_mode_of(const JsonPlace& place) {
+    if (!place.has("alphaMode")) return AlphaMode::opaque;
+    const std::string& mode = place.at("alphaMode").text();
+    return mode == "MASK" ? AlphaMode::mask : mode == "BLEND" ? AlphaMode::blend : AlphaMode::opaque;
+}
+
+float emissive_strength_of(const JsonPlace& place) {
+    const auto strength = extension(place, "KHR_materials_emissive_strength");
+    return strength ? number_or(*strength, "emissiveStrength", 1.0f) : 1.0f;
 }
 
 }  // namespace
@@ -70,7 +180,7 @@ std::set<std::size_t> images_used_by_materials(const GltfDocument& document) {
     const JsonPlace root = document.root();
     std::set<std::size_t> used;
     for_each_object(root, "materials", [&](const JsonPlace& material, std::size_t) {
-        for_each_texture_use(material, [&](const JsonPlace& use) {
+        for_each_texture_use(material, [&](const Slot&, const JsonPlace& use) {
             const JsonPlace texture = root.at("textures").at(static_cast<std::size_t>(use.at("index").whole()));
             if (texture.has("source")) {
                 used.insert(static_cast<std::size_t>(texture.at("source").whole()));
@@ -80,17 +190,17 @@ std::set<std::size_t> images_used_by_materials(const GltfDocument& document) {
     return used;
 }
 
-int uv_set_of_material(const GltfDocument& document, int material) {
-    int uv_set = -1;
-    if (material >= 0) {
-        for_each_texture_use(document.root().at("materials").at(static_cast<std::size_t>(material)),
-                             [&](const JsonPlace& use) {
-                                 if (uv_set < 0) {
-                                     uv_set = use.has("texCoord") ? static_cast<int>(use.at("texCoord").whole()) : 0;
-                                 }
-                             });
-    }
-    return uv_set;
+MaterialUv uv_of_material(const GltfDocument& document, int material) {
+    MaterialUv uv;
+    if (material < 0) return uv;
+    for_each_texture_use(document.root().at("materials").at(static_cast<std::size_t>(material)),
+                         [&](const Slot& slot, const JsonPlace& use) {
+                             const UvMapping mapping = uv_mapping_of(use);
+                             if (mapping.set > kLastUvSet) return;
+                             uv.reads[static_cast<std::size_t>(mapping.set)] = true;
+                             if (slot.texture == &Material::normal_texture) uv.of_normal_map = mapping;
+                         });
+    return uv;
 }
 
 int GltfMaterials::scene_material(int material) {
@@ -109,33 +219,29 @@ Material GltfMaterials::converted(int material) {
         result.name = "default";
         return result;
     }
-    const tinygltf::Material& source = gltf_.model.materials.at(static_cast<std::size_t>(material));
-    const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
-    const int uv_set = uv_set_of_material(document_, material);
-    result.name = source.name.empty() ? fmt::format("material {}", material) : source.name;
-    result.base_color = glm::vec4(vec3_of(pbr.baseColorFactor), static_cast<float>(pbr.baseColorFactor[3]));
-    result.metallic = static_cast<float>(pbr.metallicFactor);
-    result.roughness = static_cast<float>(pbr.roughnessFactor);
-    result.emissive = vec3_of(source.emissiveFactor) * emissive_strength(document_, material);
-    result.normal_scale = static_cast<float>(source.normalTexture.scale);
-    result.alpha_cutoff = glm::clamp(static_cast<float>(source.alphaCutoff), 0.0f, 1.0f);
-    result.alpha_mode = source.alphaMode == "MASK"    ? AlphaMode::mask
-                        : source.alphaMode == "BLEND" ? AlphaMode::blend
-                                                      : AlphaMode::opaque;
-    result.double_sided = source.doubleSided;
-    const auto texture = [&](const auto& info, const char* slot, bool srgb) {
-        if (info.index >= 0 && info.texCoord != uv_set) {
+    const JsonPlace place = document_.root().at("materials").at(static_cast<std::size_t>(material));
+    const bool named = place.has("name") && place.value()["name"].is_string() && !place.at("name").text().empty();
+    result.name = named ? place.at("name").text() : fmt::format("material {}", material);
+    read_model(place, result);
+    result.emissive = vector_or(place, "emissiveFactor", glm::vec3(0.0f)) * emissive_strength_of(place);
+    if (place.has("normalTexture")) result.normal_scale = number_or(place.at("normalTexture"), "scale", 1.0f);
+    if (place.has("occlusionTexture"))
+        result.occlusion_strength = number_or(place.at("occlusionTexture"), "strength", 1.0f);
+    result.alpha_cutoff = glm::clamp(number_or(place, "alphaCutoff", 0.5f), 0.0f, 1.0f);
+    result.alpha_mode = alpha_mode_of(place);
+    result.double_sided = place.has("doubleSided") && place.at("doubleSided").boolean();
+    for_each_texture_use(place, [&](const Slot& slot, const JsonPlace& use) {
+        const UvMapping mapping = uv_mapping_of(use);
+        if (mapping.set > kLastUvSet) {
             add_notice(scene_.notices,
-                       fmt::format("The {} of /materials/{} uses other texture coordinates than the material's first "
-                                   "texture and was left out: a mesh has one set here.",
-                                   slot, material));
+                       fmt::format("The {} of /materials/{} uses TEXCOORD_{} and was left out: the first two sets of "
+                                   "texture coordinates are read.",
+                                   slot.key, material, mapping.set));
+            return;
         }
-        return info.index >= 0 && info.texCoord == uv_set ? scene_texture(info.index, srgb) : Texture{};
-    };
-    result.base_color_texture = texture(pbr.baseColorTexture, "baseColorTexture", true);
-    result.metallic_roughness_texture = texture(pbr.metallicRoughnessTexture, "metallicRoughnessTexture", false);
-    result.normal_texture = texture(source.normalTexture, "normalTexture", false);
-    result.emissive_texture = texture(source.emissiveTexture, "emissiveTexture", true);
+        result.*slot.texture = scene_texture(static_cast<int>(use.at("index").whole()), slot.srgb);
+        result.*slot.uv = mapping;
+    });
     return result;
 }
 

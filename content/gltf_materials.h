@@ -9,11 +9,11 @@
 
 namespace halfframe::content {
 
-/// The image indices that the materials' base colour, metallic-roughness, normal and emissive textures lead to.
+/// The image indices that the materials' textures lead to.
 [[nodiscard]] std::set<std::size_t> images_used_by_materials(const GltfDocument& document);
 
-/// The TEXCOORD set that a material's textures are read with: that of its first texture. -1: it has no texture.
-[[nodiscard]] int uv_set_of_material(const GltfDocument& document, int material);
+/// Texture coordinates that a material's textures are read with. -1 is the default material.
+[[nodiscard]] MaterialUv uv_of_material(const GltfDocument& document, int material);
 
 /// Converts materials on demand, each once. Not copyable: it fills the one scene it was given.
 class GltfMaterials {

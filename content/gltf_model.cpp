@@ -91,9 +91,7 @@ json cleaned_document(const json& root, const std::vector<bool>& buffer_has_data
     }
     result["samplers"] = cleaned(root, "samplers", {"magFilter", "minFilter", "wrapS", "wrapT"});
     result["textures"] = cleaned(root, "textures", {"sampler", "source"});
-    result["materials"] = cleaned(root, "materials",
-                                  {"pbrMetallicRoughness", "normalTexture", "emissiveTexture", "emissiveFactor",
-                                   "alphaMode", "alphaCutoff", "doubleSided"});
+    result["materials"] = cleaned(root, "materials", {});  // read from the document, see gltf_materials.cpp
     result["meshes"] = cleaned(root, "meshes", {"primitives"});
     result["cameras"] = cleaned(root, "cameras", {"type", "perspective", "orthographic"});
     result["nodes"] =

@@ -1,6 +1,8 @@
 // A checked glTF document in tinygltf's types, and the two things read from it: images and primitives.
 #pragma once
 
+#include <array>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -42,10 +44,13 @@ template <typename T>
 /// integers, whose columns are padded.
 [[nodiscard]] std::vector<float> read_floats(const GltfModel& gltf, int accessor);
 
+/// The last TEXCOORD set that is read.
+inline constexpr int kLastUvSet = 1;
+
 /// What a primitive needs from its material.
-struct PrimitiveNeeds {
-    int uv_set = -1;  ///< the TEXCOORD set of its textures; -1: it has none
-    bool tangents = false;
+struct MaterialUv {
+    std::array<bool, kLastUvSet + 1> reads{};  ///< which TEXCOORD sets
+    std::optional<UvMapping> of_normal_map;    ///< none: no tangents are needed
 };
 
 /// Vertices and indices read so far, against the caps.
@@ -56,7 +61,7 @@ struct ReadSoFar {
 
 /// Nothing when there is nothing to draw; then a notice says why.
 [[nodiscard]] std::optional<Mesh> read_primitive(const GltfModel& gltf, std::size_t mesh, std::size_t primitive,
-                                                 const PrimitiveNeeds& needs, ReadSoFar& so_far,
+                                                 const MaterialUv& needs, ReadSoFar& so_far,
                                                  std::vector<std::string>& notices);
 
 /// Adds a sentence once.

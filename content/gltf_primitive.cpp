@@ -167,8 +167,8 @@ void count_against_caps(const GltfModel& gltf, const tinygltf::Primitive& primit
     }
 }
 
-void read_streams(const GltfModel& gltf, const tinygltf::Primitive& primitive, const std::string& place, int uv_set,
-                  Mesh& mesh, std::vector<std::string>& notices) {
+void read_streams(const GltfModel& gltf, const tinygltf::Primitive& primitive, const std::string& place,
+                  const MaterialUv& needs, Mesh& mesh, std::vector<std::string>& notices) {
     mesh.positions = read_finite<glm::vec3>(gltf, place + "/attributes/POSITION", attribute(primitive, "POSITION"));
     if (const int normals = attribute(primitive, "NORMAL"); normals >= 0) {
         mesh.normals = read_elements<glm::vec3>(gltf, normals);
@@ -176,12 +176,17 @@ void read_streams(const GltfModel& gltf, const tinygltf::Primitive& primitive, c
     if (const int tangents = attribute(primitive, "TANGENT"); tangents >= 0 && !mesh.normals.empty()) {
         mesh.tangents = read_elements<glm::vec4>(gltf, tangents);
     }
-    const std::string uv_name = fmt::format("TEXCOORD_{}", std::max(uv_set, 0));
-    if (const int uv = attribute(primitive, uv_name); uv >= 0) {
-        mesh.uv = read_finite<glm::vec2>(gltf, place + "/attributes/" + uv_name, uv);
-    } else if (uv_set >= 0) {
-        add_notice(notices, fmt::format("{} has no {}, which its material asks for: its textures show one texel.",
-                                        place, uv_name));
+    for (std::size_t set = 0; set < needs.reads.size(); ++set) {
+        const std::string uv_name = fmt::format("TEXCOORD_{}", set);
+        std::vector<glm::vec2>& stream = set == 0 ? mesh.uv : mesh.uv1;
+        const int uv = attribute(primitive, uv_name);
+        if (uv >= 0 && (set == 0 || needs.reads[set])) {
+            stream = read_finite<glm::vec2>(gltf, place + "/attributes/" + uv_name, uv);
+        } else if (needs.reads[set]) {
+            add_notice(notices, fmt::format("{} has no {}, which its material asks for: its textures show one texel.",
+                                            place, uv_name));
+            if (set > 0) stream.assign(mesh.positions.size(), glm::vec2(0.0f));
+        }
     }
     if (const int colors = attribute(primitive, "COLOR_0"); colors >= 0) {
         mesh.colors = read_finite<glm::vec4>(gltf, place + "/attributes/COLOR_0", colors);
@@ -228,7 +233,8 @@ bool keep_complete(Mesh& mesh, const std::string& place, std::vector<std::string
     return true;
 }
 
-void complete_streams(Mesh& mesh, const std::string& place, bool wants_tangents, std::vector<std::string>& notices) {
+void complete_streams(Mesh& mesh, const std::string& place, const std::optional<UvMapping>& normal_map,
+                      std::vector<std::string>& notices) {
     if (mesh.normals.empty() && has_faces(mesh.primitive)) {
         mesh = flat_shaded(mesh);
     } else if (const std::size_t bad = repair_normals(mesh); bad > 0) {
@@ -238,8 +244,11 @@ void complete_streams(Mesh& mesh, const std::string& place, bool wants_tangents,
     }
     if (!mesh.tangents.empty()) {
         repair_tangents(mesh);
-    } else if (wants_tangents && !mesh.uv.empty() && !mesh.normals.empty()) {
-        add_tangents(mesh);
+    } else if (normal_map && !mesh.normals.empty()) {
+        const std::vector<glm::vec2> uv = mapped(normal_map->set == 0 ? mesh.uv : mesh.uv1, *normal_map);
+        if (!uv.empty()) {
+            add_tangents(mesh, uv);
+        }
     }
 }
 
@@ -252,7 +261,12 @@ std::vector<T> read_elements(const GltfModel& gltf, int index) {
         static_cast<std::size_t>(tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(accessor.componentType)));
     const int given = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type));
     const bool starts_at_zero = accessor.bufferView < 0;  // glTF 2.0: without a view, all zeros before sparse values
-    std::vector<T> result(accessor.count, T(starts_at_zero ? 0.0f : 1.0f));
+    std::vector<T> result(accessor.count, T(1.0f));
+    if (starts_at_zero) {
+        T zero(1.0f);
+        for (int i = 0; i < std::min(given, static_cast<int>(T::length())); ++i) zero[i] = 0.0f;
+        std::fill(result.begin(), result.end(), zero);
+    }
     for_each_element(gltf, index, [&](std::size_t element, const unsigned char* bytes) {
         for (int i = 0; i < std::min(given, static_cast<int>(T::length())); ++i) {
             result[element][i] = component_as_float(bytes + static_cast<std::size_t>(i) * bytes_each,
@@ -291,7 +305,7 @@ std::vector<float> read_floats(const GltfModel& gltf, int index) {
 }
 
 std::optional<Mesh> read_primitive(const GltfModel& gltf, std::size_t mesh_index, std::size_t primitive_index,
-                                   const PrimitiveNeeds& needs, ReadSoFar& so_far, std::vector<std::string>& notices) {
+                                   const MaterialUv& needs, ReadSoFar& so_far, std::vector<std::string>& notices) {
     const tinygltf::Mesh& source = gltf.model.meshes.at(mesh_index);
     const tinygltf::Primitive& primitive = source.primitives.at(primitive_index);
     const std::string place = fmt::format("/meshes/{}/primitives/{}", mesh_index, primitive_index);
@@ -303,13 +317,13 @@ std::optional<Mesh> read_primitive(const GltfModel& gltf, std::size_t mesh_index
     Mesh mesh;
     mesh.name = source.name.empty() ? fmt::format("mesh {}", mesh_index) : source.name;
     mesh.primitive = primitive_of(primitive.mode);
-    read_streams(gltf, primitive, place, needs.uv_set, mesh, notices);
+    read_streams(gltf, primitive, place, needs, mesh, notices);
     read_moving_streams(gltf, primitive, place, mesh, so_far, notices);
     read_checked_indices(gltf, primitive, place, mesh);
     if (!keep_complete(mesh, place, notices)) {
         return std::nullopt;
     }
-    complete_streams(mesh, place, needs.tangents, notices);
+    complete_streams(mesh, place, needs.of_normal_map, notices);
     return mesh;
 }
 

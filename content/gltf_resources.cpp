@@ -45,6 +45,22 @@ bool has_scheme(const std::string& uri) {
            });
 }
 
+/// A link inside the folder may not lead out of it: an asset from somewhere else may bring one to any file.
+void expect_inside(const GltfDocument& document, const JsonPlace& place, const std::filesystem::path& path,
+                   const std::string& advice) {
+    std::error_code code;
+    const std::filesystem::path parent = document.file.parent_path();
+    const std::filesystem::path folder = std::filesystem::weakly_canonical(parent.empty() ? "." : parent, code);
+    const std::filesystem::path target = code ? path : std::filesystem::weakly_canonical(path, code);
+    if (code) {
+        place.fail(fmt::format("cannot be followed ({})", code.message()), advice);
+    }
+    const auto [end_of_folder, in_target] = std::mismatch(folder.begin(), folder.end(), target.begin(), target.end());
+    if (end_of_folder != folder.end()) {
+        place.fail(fmt::format("leads out of the asset's folder, to {}", target.string()), advice);
+    }
+}
+
 /// The path of a relative URI inside the asset's folder.
 std::filesystem::path path_of(const GltfDocument& document, const JsonPlace& place, const std::string& uri) {
     const std::string advice = "put the file into the folder of the glTF file and name it relative to that";
@@ -62,7 +78,9 @@ std::filesystem::path path_of(const GltfDocument& document, const JsonPlace& pla
     if (std::any_of(relative.begin(), relative.end(), [](const auto& part) { return part == ".."; })) {
         place.fail(fmt::format("'{}' leads out of the asset's folder", decoded), advice);
     }
-    return document.file.parent_path() / relative;
+    const std::filesystem::path path = document.file.parent_path() / relative;
+    expect_inside(document, place, path, advice);
+    return path;
 }
 
 std::string base64_decoded(const JsonPlace& place, std::string_view text) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/error.h"
+#include "engine/frame/uv_rows.h"
 
 namespace halfframe::content {
 namespace {
@@ -110,6 +111,7 @@ Mesh flat_shaded(const Mesh& mesh) {
     result.name = mesh.name;
     result.positions = gathered(mesh.positions, list);
     result.uv = gathered(mesh.uv, list);
+    result.uv1 = gathered(mesh.uv1, list);
     result.colors = gathered(mesh.colors, list);
     result.joints = gathered(mesh.joints, list);
     result.weights = gathered(mesh.weights, list);
@@ -127,6 +129,8 @@ std::size_t repair_normals(Mesh& mesh) {
     std::vector<bool> bad(mesh.normals.size(), false);
     std::size_t bad_count = 0;
     for (std::size_t i = 0; i < mesh.normals.size(); ++i) {
+        // 5e-7: unit but for the rounding of floats, which would only be rounded again.
+        if (std::abs(glm::dot(mesh.normals[i], mesh.normals[i]) - 1.0f) < 5e-7f) continue;
         mesh.normals[i] = unit_or(mesh.normals[i], glm::vec3(0.0f));
         bad[i] = mesh.normals[i] == glm::vec3(0.0f);
         bad_count += bad[i] ? 1 : 0;
@@ -153,8 +157,10 @@ std::size_t repair_normals(Mesh& mesh) {
     return bad_count;
 }
 
-void add_tangents(Mesh& mesh) {
-    expect(mesh.normals.size() == mesh.positions.size() && mesh.uv.size() == mesh.positions.size(),
+void add_tangents(Mesh& mesh) { add_tangents(mesh, mesh.uv); }
+
+void add_tangents(Mesh& mesh, const std::vector<glm::vec2>& uv) {
+    expect(mesh.normals.size() == mesh.positions.size() && uv.size() == mesh.positions.size(),
            "tangents need a normal and a uv at every vertex");
     std::vector<glm::dvec3> along_u(mesh.positions.size(), glm::dvec3(0.0));
     std::vector<glm::dvec3> along_v(mesh.positions.size(), glm::dvec3(0.0));
@@ -164,8 +170,8 @@ void add_tangents(Mesh& mesh) {
         const glm::dvec3 origin(mesh.positions[list[i]]);
         const glm::dvec3 edge_1 = glm::dvec3(mesh.positions[list[i + 1]]) - origin;
         const glm::dvec3 edge_2 = glm::dvec3(mesh.positions[list[i + 2]]) - origin;
-        const glm::dvec2 uv_1 = glm::dvec2(mesh.uv[list[i + 1]]) - glm::dvec2(mesh.uv[list[i]]);
-        const glm::dvec2 uv_2 = glm::dvec2(mesh.uv[list[i + 2]]) - glm::dvec2(mesh.uv[list[i]]);
+        const glm::dvec2 uv_1 = glm::dvec2(uv[list[i + 1]]) - glm::dvec2(uv[list[i]]);
+        const glm::dvec2 uv_2 = glm::dvec2(uv[list[i + 2]]) - glm::dvec2(uv[list[i]]);
         // Dividing by the determinant would only weigh by the uv area; its sign is what matters.
         const double sign = uv_1.x * uv_2.y - uv_2.x * uv_1.y < 0.0 ? -1.0 : 1.0;
         for (std::size_t corner = i; corner < i + 3; ++corner) {
@@ -185,8 +191,28 @@ void add_tangents(Mesh& mesh) {
     }
 }
 
+std::vector<glm::vec2> mapped(const std::vector<glm::vec2>& uv, const UvMapping& mapping) {
+    if (is_plain(mapping)) {
+        return uv;
+    }
+    const UvRows rows = rows_of(mapping);
+    std::vector<glm::vec2> result;
+    result.reserve(uv.size());
+    for (const glm::vec2& at : uv) {
+        result.emplace_back(rows[0].x * at.x + rows[0].y * at.y + rows[1].x,
+                            rows[0].z * at.x + rows[0].w * at.y + rows[1].y);
+    }
+    return result;
+}
+
 void repair_tangents(Mesh& mesh) {
     for (std::size_t i = 0; i < mesh.tangents.size(); ++i) {
+        const glm::vec3 as_it_is(mesh.tangents[i]);
+        const bool unit_already = std::abs(glm::dot(as_it_is, as_it_is) - 1.0f) < 5e-7f;
+        if (unit_already && std::abs(glm::dot(as_it_is, mesh.normals[i])) < 5e-7f &&
+            std::abs(mesh.tangents[i].w) == 1.0f) {
+            continue;
+        }
         const glm::vec3 given(unit_or(glm::vec3(mesh.tangents[i]), glm::vec3(0.0f)));
         const glm::vec3 flat = given - mesh.normals[i] * glm::dot(mesh.normals[i], given);
         // Under 0.01 the tangent is the normal but for rounding: its direction means nothing.

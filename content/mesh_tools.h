@@ -23,8 +23,13 @@ std::size_t repair_normals(Mesh& mesh);
 
 /// Tangents from positions, normals and uv: the direction of growing u, summed over the faces of a vertex, then made
 /// orthogonal to the normal; w so that the bitangent points to falling v, which is up in the picture. Not MikkTSpace: a
-/// vertex shared by faces with mirrored uv gets the mean of both, where MikkTSpace would split it.
+/// vertex shared by faces with mirrored uv gets the mean of both, where MikkTSpace would split it. `uv`: those that the
+/// normal map is read at; one for each vertex.
+void add_tangents(Mesh& mesh, const std::vector<glm::vec2>& uv);
 void add_tangents(Mesh& mesh);
+
+/// What `mapping` makes of coordinates: the vertex shader's common/uv_mapping.glsl, on the CPU.
+[[nodiscard]] std::vector<glm::vec2> mapped(const std::vector<glm::vec2>& uv, const UvMapping& mapping);
 
 /// Makes every tangent unit and orthogonal to its normal, and w +1 or -1.
 void repair_tangents(Mesh& mesh);

@@ -12,10 +12,15 @@
 
 namespace halfframe::content {
 
-Scene open_scene(const std::string& scene) {
+Scene open_scene(const std::string& scene, const LoadOptions& options) {
     std::vector<std::string> names;
     for (const BuiltInScene& each : built_in_scenes()) {
         if (each.name == scene) {
+            if (!options.scene.empty() || !options.variant.empty()) {
+                throw Error(Fault::usage, fmt::format("{} is built in: --gltf-scene and --variant choose what of a "
+                                                      ".gltf or .glb file is loaded; leave them out",
+                                                      scene));
+            }
             return each.make();
         }
         names.emplace_back(each.name);
@@ -24,7 +29,7 @@ Scene open_scene(const std::string& scene) {
     std::transform(ending.begin(), ending.end(), ending.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     if (ending == ".gltf" || ending == ".glb") {
-        return load_gltf(scene);
+        return load_gltf(scene, options);
     }
     throw Error(Fault::input,
                 fmt::format("{}: neither a built-in scene{} nor a .gltf or .glb file; the built-in scenes are {}",

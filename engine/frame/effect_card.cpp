@@ -57,10 +57,13 @@ gl::ProgramDescription describe_variant(const EffectCard& card, const ShaderVari
         });
         description.defines.emplace_back(std::string(define), "1");
     }
-    description.attributes = {{"position", kPosition}, {"normal", kNormal}, {"tangent", kTangent}, {"uv", kUv},
-                              {"color", kColor},       {"uv1", kUv1}};
+    description.attributes = {
+        {"position", kPosition}, {"normal", kNormal}, {"tangent", kTangent}, {"uv", kUv}, {"color", kColor}};
     // Named only where they are read, so that the calls of every other program stay what they are.
-    if (std::ranges::any_of(defines, [](std::string_view define) { return define.starts_with("SKIN_"); })) {
+    const auto any = [&](auto holds) { return std::ranges::any_of(defines, holds); };
+    if (any([](std::string_view define) { return define.ends_with("_FROM_1"); }))
+        description.attributes.emplace_back("uv1", kUv1);
+    if (any([](std::string_view define) { return define.starts_with("SKIN_"); })) {
         description.attributes.emplace_back("joints", kJoints);
         description.attributes.emplace_back("weights", kWeights);
     }

@@ -50,13 +50,21 @@ struct Image {
 
 enum class Wrap : std::uint8_t { repeat, clamp, mirror };
 
+/// How a texture is filtered where its texels are smaller than pixels.
+struct Minify {
+    bool linear = true;   ///< inside a level
+    bool between = true;  ///< between two levels; only with mip levels
+    bool operator==(const Minify&) const = default;
+};
+
 /// A use of an image: which and how it is sampled.
 struct Texture {
     int image = -1;  ///< index in Scene::images; -1: none
     Wrap wrap_u = Wrap::repeat;
     Wrap wrap_v = Wrap::repeat;
-    bool linear = true;  ///< filter inside a level and on magnification
+    bool linear = true;  ///< filter on magnification
     bool mipmaps = true;
+    std::optional<Minify> minify;  ///< none: as `linear`, inside a level and between levels
     [[nodiscard]] explicit operator bool() const { return image >= 0; }
     bool operator==(const Texture&) const = default;
 };

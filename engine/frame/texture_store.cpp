@@ -18,13 +18,18 @@ GLint wrap_of(Wrap mode) {
     return mode == Wrap::repeat ? GL_REPEAT : mode == Wrap::clamp ? GL_CLAMP_TO_EDGE : GL_MIRRORED_REPEAT;
 }
 
+GLint minify_filter(const Texture& texture) {
+    const Minify minify = texture.minify.value_or(Minify{.linear = texture.linear, .between = texture.linear});
+    if (!texture.mipmaps) return minify.linear ? GL_LINEAR : GL_NEAREST;
+    if (minify.between) return minify.linear ? GL_LINEAR_MIPMAP_LINEAR : GL_NEAREST_MIPMAP_LINEAR;
+    return minify.linear ? GL_LINEAR_MIPMAP_NEAREST : GL_NEAREST_MIPMAP_NEAREST;
+}
+
 void set_sampling(gl::EntryPoints& gl, const Texture& texture) {
-    const GLint minify = texture.mipmaps ? (texture.linear ? GL_LINEAR_MIPMAP_LINEAR : GL_NEAREST_MIPMAP_NEAREST)
-                                         : (texture.linear ? GL_LINEAR : GL_NEAREST);
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, wrap_of(texture.wrap_u));
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, wrap_of(texture.wrap_v));
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, texture.linear ? GL_LINEAR : GL_NEAREST);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, minify);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, minify_filter(texture));
 }
 
 }  // namespace

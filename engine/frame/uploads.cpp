@@ -249,6 +249,7 @@ DrawMesh upload_mesh(gl::EntryPoints& gl, const gl::Caps& caps, const Mesh& mesh
     draw.has_normals = !mesh.normals.empty();
     draw.has_tangents = !mesh.tangents.empty();
     draw.has_colors = !mesh.colors.empty();
+    draw.has_uv1 = !mesh.uv1.empty();
     draw.mode = gl_mode(mesh.primitive);
     for (const MeshPiece& piece : packed_pieces(mesh, storage, caps.index_uint ? ~std::size_t{0} : 65536)) {
         draw.parts.push_back(upload_piece(gl, caps, piece, draw.layout));

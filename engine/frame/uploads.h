@@ -39,6 +39,7 @@ struct DrawMesh {
     bool has_normals = false;
     bool has_tangents = false;
     bool has_colors = false;
+    bool has_uv1 = false;
 };
 
 /// A mesh, or a piece of one, as the device will have it.

@@ -78,6 +78,7 @@ struct FunctionEntry {
 [[nodiscard]] std::vector<FunctionEntry> bloom_functions();
 [[nodiscard]] std::vector<FunctionEntry> sky_functions();
 [[nodiscard]] std::vector<FunctionEntry> surface_functions();
+[[nodiscard]] std::vector<FunctionEntry> surface_material_functions();  ///< part of surface_functions()
 [[nodiscard]] std::vector<FunctionEntry> tone_map_functions();
 
 }  // namespace halfframe::accuracy

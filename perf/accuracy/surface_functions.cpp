@@ -308,7 +308,8 @@ FunctionEntry spheres() {
 
 std::vector<FunctionEntry> surface_functions() {
     std::vector<FunctionEntry> list;
-    for (const std::vector<FunctionEntry>& part : {fresnel(), power(), lobes(), falloffs()}) {
+    for (const std::vector<FunctionEntry>& part :
+         {fresnel(), power(), lobes(), falloffs(), surface_material_functions()}) {
         list.insert(list.end(), part.begin(), part.end());
     }
     list.push_back(light());

@@ -259,6 +259,14 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
                     "$XDG_CACHE_HOME/halfframe or ~/.cache/halfframe")
         ->type_name("DIR|none");
     add_device_options(command, options.device);
+    command
+        .add_option("--gltf-scene", options.gltf_scene,
+                    "Scene of a file that has several, by name, or by number from 0. Default: the file's own")
+        ->type_name("NAME|N");
+    command
+        .add_option("--variant", options.variant,
+                    "Material variant of a file that has some (KHR_materials_variants), by name, or by number from 0")
+        ->type_name("NAME|N");
     CLI::Option* camera = command
                               .add_option("--camera", options.camera,
                                           "Camera of the scene by name, or by number from 0. Default: the first; "
@@ -333,7 +341,7 @@ OpenedScene open_with_options(const std::string& scene, const SceneOptions& opti
                                               largest, largest));
     }
     OpenedScene opened;
-    opened.scene = content::open_scene(scene);
+    opened.scene = content::open_scene(scene, {.scene = options.gltf_scene, .variant = options.variant});
     const bool is_file = scene.ends_with(".gltf") || scene.ends_with(".glb");
     opened.label = is_file ? std::filesystem::path(scene).filename().string() : scene;
     opened.wishes = parse_wishes(options);
@@ -388,6 +396,8 @@ std::vector<std::string> option_words(const SceneOptions& options) {
     add("--environment", options.environment, "");
     add("--device", options.device.device, defaults.device.device);
     add("--context", options.device.context, defaults.device.context);
+    add("--gltf-scene", options.gltf_scene, "");
+    add("--variant", options.variant, "");
     add("--camera", options.camera, "");
     add("--eye", options.eye, "");
     add("--target", options.target, "");

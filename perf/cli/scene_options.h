@@ -26,6 +26,8 @@ struct SceneOptions {
     std::string textures = "auto";
     std::string environment;  ///< empty: the scene's own
     std::string cache;        ///< empty: the user's cache folder
+    std::string gltf_scene;
+    std::string variant;
     std::string camera;
     std::string eye;
     std::string target;

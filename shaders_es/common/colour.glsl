@@ -1,4 +1,4 @@
-// sRGB to linear, for devices whose textures do not decode themselves.
+// sRGB to linear, for devices whose textures do not decode themselves, and back, for colours that no light changes.
 
 #ifdef TIER_REFERENCE
 // IEC 61966-2-1, exact.
@@ -9,3 +9,7 @@ vec3 linear_from_srgb(vec3 s) { return vec3(linear_from_srgb(s.r), linear_from_s
 // multiply-adds, no pow; worst error 0.0017 linear at 0.08, at most 1.9 display codes after the tone map.
 vec3 linear_from_srgb(vec3 s) { return s * (s * (s * 0.305306011 + 0.682171111) + 0.012522878); }
 #endif
+
+// IEC 61966-2-1, exact. linear 0..1; the max() keeps pow from 0.
+float srgb_from_linear(float x) { return x <= 0.0031308 ? x * 12.92 : 1.055 * pow(max(x, 1e-4), 1.0 / 2.4) - 0.055; }
+vec3 srgb_from_linear(vec3 x) { return vec3(srgb_from_linear(x.r), srgb_from_linear(x.g), srgb_from_linear(x.b)); }

@@ -6,8 +6,7 @@ VERTEX_IN vec3 position;  // local, as stored
 uniform highp mat4 clip_from_local;
 #ifdef ALPHA_MASK
 #ifdef BASE_COLOR_MAP
-VERTEX_IN vec2 uv;  // steps of uv_range
-uniform highp vec4 uv_range;
+#include "common/uv_mapping.glsl"
 VERTEX_OUT FULL vec2 vertex_uv;  // FULL: as in surface.vert
 #endif
 #ifdef VERTEX_COLOR
@@ -26,7 +25,7 @@ void main() {
     gl_Position = clip_from_local * vec4(place, 1.0);
 #ifdef ALPHA_MASK
 #ifdef BASE_COLOR_MAP
-    vertex_uv = uv_from_steps(uv, uv_range);
+    vertex_uv = first_uv();
 #endif
 #ifdef VERTEX_COLOR
     vertex_alpha = color.a;

@@ -4,15 +4,20 @@
 //   surface.sun       sun_light may be dimmed
 //   surface.lighting  light holds all reflected light
 //   surface.color     color holds what will be stored
+//
+// A material is metallic-roughness (with OWN_SPECULAR where its dielectric is not the default), or SPECULAR_GLOSSINESS, or
+// its colour alone: DISPLAY_COLOR.
 #include "surface/surface_limits.h"
 #include "surface/surface_lights.glsl"
 #include "common/maths.glsl"
 #include "common/colour.glsl"
 #include "common/packing.glsl"
 #include "surface/surface.glsl"
+#include "surface/surface_textures.glsl"
+#include "surface/surface_material.glsl"
+#include "tone_map/tone_map.glsl"
 
 FRAGMENT_IN FULL vec3 vertex_to_eye;
-FRAGMENT_IN FULL vec2 vertex_uv;
 #ifndef UNLIT
 FRAGMENT_IN HALF vec3 vertex_normal;
 #endif
@@ -26,24 +31,16 @@ FRAGMENT_IN HALF vec4 vertex_color;
 // The CPU multiplies every light, the ambient and the emission by the exposure: no uniform and no operation for it here.
 uniform HALF vec4 base_color;
 uniform HALF vec4 emissive;  // rgb; w alpha cutoff
-#ifdef BASE_COLOR_MAP
-uniform HALF sampler2D base_color_map;
-#endif
-#ifdef EMISSIVE_MAP
-uniform HALF sampler2D emissive_map;
-#endif
 #ifndef UNLIT
 // x metallic, y roughness, z normal scale; without a map y is the smoothness and w the power, made on the CPU.
 uniform HALF vec4 factors;
 uniform HALF vec4 ambient;  // rgb
-uniform HALF vec4 parallel_eye;  // orthographic: xyz direction to the eye, w 0; else 0, 0, 0, 1
-#if defined(PACKED_MAPS) && defined(NORMAL_MAP) && defined(METALLIC_ROUGHNESS_MAP)
-#define ONE_FETCH  // normal_map: rg normal x and y, b metallic, a roughness; texture_storage.h packs it
-#elif defined(METALLIC_ROUGHNESS_MAP)
-uniform HALF sampler2D metallic_roughness_map;
+#if defined(OWN_SPECULAR) || defined(SPECULAR_GLOSSINESS) || defined(OCCLUSION_MAP) || defined(OCCLUSION_PACKED)
+uniform HALF vec4 specular_factors;  // rgb specular of a dielectric (or of the material); w occlusion strength
 #endif
-#ifdef NORMAL_MAP
-uniform HALF sampler2D normal_map;
+uniform HALF vec4 parallel_eye;  // orthographic: xyz direction to the eye, w 0; else 0, 0, 0, 1
+#if defined(PACKED_MAPS) && defined(NORMAL_MAP) && !defined(SPECULAR_GLOSSINESS)
+#define ONE_FETCH  // normal_map: rg normal x and y, b metallic, a roughness; texture_storage.h packs it
 #endif
 #ifdef SUN
 uniform HALF vec4 sun_direction;  // xyz unit, towards the sun
@@ -66,53 +63,73 @@ uniform FULL vec4 light_size[LIGHT_SLOTS];  // FULL: metres squared; x radius [m
 
 //@insert_functions
 
-vec3 color_texel(HALF sampler2D image) {
-#ifdef TIER_LOW
-    return linear_from_srgb(sample_2d(image, vertex_uv).rgb);  // ES 2.0 has no sRGB textures
-#else
-    return sample_2d(image, vertex_uv).rgb;
-#endif
-}
-
 void main() {
     vec4 base = base_color;
 #ifdef VERTEX_COLOR
-    base *= vertex_color;
+    base *= vertex_factor;
 #endif
 #ifdef BASE_COLOR_MAP
-    base.rgb *= color_texel(base_color_map);
-    base.a *= sample_2d(base_color_map, vertex_uv).a;
+    base.rgb *= base_texel(base_color_map, BASE_COLOR_AT);
+    base.a *= sample_2d(base_color_map, BASE_COLOR_AT).a;
 #endif
 #ifdef ALPHA_MASK
     if (base.a < emissive.w) discard;
 #endif
     vec3 emission = emissive.rgb;
 #ifdef EMISSIVE_MAP
-    emission *= color_texel(emissive_map);
+    emission *= color_texel(emissive_map, EMISSIVE_AT);
 #endif
 
-#ifdef UNLIT
+#if defined(DISPLAY_COLOR)
+#ifdef TIER_LOW
+    vec3 shown = clamp(base.rgb, 0.0, 1.0);
+#else
+    vec3 shown = srgb_from_linear(clamp(base.rgb, 0.0, 1.0));
+#endif
+    vec3 light = inverse_tone_map(shown);
+#elif defined(UNLIT)
     vec3 light = base.rgb + emission;
 #else
     float metallic = factors.x;
 #ifdef ONE_FETCH
-    vec4 packed_map = sample_2d(normal_map, vertex_uv);
-#endif
-#ifdef METALLIC_ROUGHNESS_MAP
-#ifdef ONE_FETCH
-    vec2 packed_factors = packed_map.ba;
-#else
-    vec2 packed_factors = sample_2d(metallic_roughness_map, vertex_uv).bg;
-#endif
-    metallic *= packed_factors.x;
-    float power = power_from_roughness(factors.y * packed_factors.y);
+    vec4 packed_map = sample_2d(normal_map, NORMAL_AT);
+    metallic *= packed_map.b;
+    float power = power_from_roughness(factors.y * packed_map.a);
+    float smoothness = smoothness_from_power(power);
+#elif defined(SPECULAR_GLOSSINESS) && defined(SPECULAR_GLOSSINESS_MAP)
+    float power = power_from_roughness(1.0 - factors.y * sample_2d(specular_glossiness_map, ROUGHNESS_AT).a);
+    float smoothness = smoothness_from_power(power);
+#elif defined(METALLIC_ROUGHNESS_MAP)
+    vec4 packed_factors = sample_2d(metallic_roughness_map, ROUGHNESS_AT);
+    metallic *= packed_factors.b;
+    float power = power_from_roughness(factors.y * packed_factors.g);
     float smoothness = smoothness_from_power(power);
 #else
     float power = factors.w;
     float smoothness = factors.y;
 #endif
+#ifdef SPECULAR_GLOSSINESS
+    vec3 specular = specular_factors.rgb;
+#ifdef SPECULAR_GLOSSINESS_MAP
+    specular *= color_texel(specular_glossiness_map, ROUGHNESS_AT);
+#endif
+    vec3 albedo = albedo_beside(base.rgb, specular);
+#else
     vec3 albedo = base.rgb * (1.0 - metallic);
+#ifdef OWN_SPECULAR
+    vec3 tint = vec3(1.0);
+    float share = 1.0;
+#ifdef SPECULAR_COLOR_MAP
+    tint = color_texel(specular_color_map, SPECULAR_COLOR_AT);
+#endif
+#if defined(SPECULAR_MAP) && !defined(TIER_LOW)
+    share = sample_2d(specular_map, SPECULAR_AT).a;
+#endif
+    vec3 specular = mix(dielectric_specular(specular_factors.rgb, tint, share), base.rgb, metallic);
+#else
     vec3 specular = mix(vec3(SURFACE_DIELECTRIC_SPECULAR), base.rgb, metallic);
+#endif
+#endif
 
     // FULL: the highlight is the difference of n and h (see blinn_lobe).
     FULL vec3 n = normalize(vertex_normal);
@@ -123,7 +140,7 @@ void main() {
     FULL vec3 bump = vec3(packed_map.xy * 2.0 - 1.0, 0.0);
     bump.z = sqrt(max(1.0 - dot(bump.xy, bump.xy), 0.0));
 #else
-    FULL vec3 bump = sample_2d(normal_map, vertex_uv).xyz * 2.0 - 1.0;
+    FULL vec3 bump = sample_2d(normal_map, NORMAL_AT).xyz * 2.0 - 1.0;
 #endif
     bump.xy *= factors.z;
     n = normalize(t * bump.x + b * bump.y + n * max(bump.z, 0.01));
@@ -139,6 +156,15 @@ void main() {
     vec3 diffuse_light = ambient.rgb;
     vec3 mirrored_light = ambient.rgb;
     //@insert surface.ambient
+#if defined(OCCLUSION_MAP)
+    float arriving = occlusion_share(sample_2d(occlusion_map, OCCLUSION_AT).r, specular_factors.w);
+    diffuse_light *= arriving;
+    mirrored_light *= arriving;
+#elif defined(OCCLUSION_PACKED) && defined(METALLIC_ROUGHNESS_MAP)
+    float arriving = occlusion_share(packed_factors.r, specular_factors.w);  // one picture, one fetch
+    diffuse_light *= arriving;
+    mirrored_light *= arriving;
+#endif
     vec3 light = albedo * diffuse_light + fresnel_glossy(specular, smoothness, n_dot_v) * mirrored_light + emission;
 #ifdef SUN
     vec3 sun_light = sun_color.rgb;
@@ -180,6 +206,9 @@ void main() {
 
     vec3 color = storable(light, SURFACE_STORE_LIMIT);
     //@insert surface.color
+#if defined(DISPLAY_COLOR) && defined(SCENE_COLOR_DISPLAY)
+    color = shown;  // stored as it is shown: there and back again would only lose bits
+#endif
 #ifdef SCENE_COLOR_PACKED
     color = packed_scene_color(min(color, vec3(SCENE_COLOR_RANGE)));
 #endif

@@ -5,18 +5,17 @@
 #include "surface/surface_lights.glsl"
 #include "common/maths.glsl"
 #include "common/mesh_vertex.glsl"
+#include "common/uv_mapping.glsl"
 #include "common/vertex_decode.glsl"
 
 VERTEX_IN vec3 position;  // local, as stored
 VERTEX_IN vec2 normal;    // octahedral
 VERTEX_IN vec2 tangent;   // octahedral, with its handedness
-VERTEX_IN vec2 uv;        // steps of uv_range
 VERTEX_IN vec4 color;     // linear
 
 uniform highp mat4 clip_from_local;
 uniform highp mat4 eye_from_local;     // world axes, origin at the eye
 uniform highp mat4 normal_from_local;  // inverse transpose, world axes
-uniform highp vec4 uv_range;           // xy scale, zw offset
 #ifdef NORMAL_MAP
 uniform highp vec4 direction_scale;    // xyz: undoes the scale of stored positions, which is in eye_from_local
 #endif
@@ -24,6 +23,9 @@ uniform highp vec4 toward_eye;         // xyz: direction to the eye if orthograp
 
 VERTEX_OUT FULL vec3 vertex_to_eye;  // FULL: positions in metres need more than 11 bits
 VERTEX_OUT FULL vec2 vertex_uv;      // FULL: a 2048-texel repeat is past half's 11 bits
+#ifdef UV_B
+VERTEX_OUT FULL vec2 vertex_uv_b;
+#endif
 #ifndef UNLIT
 VERTEX_OUT HALF vec3 vertex_normal;
 #endif
@@ -81,7 +83,10 @@ void main() {
 #endif
     vec3 at = (eye_from_local * vec4(place, 1.0)).xyz;
     vertex_to_eye = -at * toward_eye.w;
-    vertex_uv = uv_from_steps(uv, uv_range);
+    vertex_uv = first_uv();
+#ifdef UV_B
+    vertex_uv_b = second_uv();
+#endif
 #ifndef UNLIT
 #ifdef SKINNED
     highp vec3 upright = normalize(skinned_normal(direction_from_octahedral(normal)));

@@ -139,6 +139,12 @@ TEST(WrongFormula, PowerOfAnotherAlphaAndSmoothnessOffByOne) {
     expect_caught("smoothness_from_power", [](const Lane& in, std::size_t) { return std::log2(in(0)) / 10.0; });
 }
 
+TEST(WrongFormula, MaterialExtensionsWithAFactorForgotten) {
+    expect_caught("dielectric_specular", [](const Lane& in, std::size_t s) { return in(0, s) * in(1, s); });
+    expect_caught("albedo_beside", [](const Lane& in, std::size_t s) { return in(0, s) * (1.0 - in(1, s)); });
+    expect_caught("occlusion_share", [](const Lane& in, std::size_t) { return in(0) * in(1); });
+}
+
 TEST(WrongFormula, LobeOfAnotherPower) {
     expect_caught("blinn_lobe", [](const Lane& in, std::size_t) {
         return reference::blinn_lobe(vector_of(in, 0), vector_of(in, 1), in(2) + 2.0);

@@ -338,11 +338,11 @@ TEST_F(GltfContent, GlbAndFilesWithPercentSigns) {
 
 TEST_F(GltfContent, WhatIsLeftOutIsSaidOnce) {
     json document = textured_document();
-    document["extensionsUsed"] = {"KHR_lights_punctual"};
-    document["materials"][0]["emissiveTexture"]["texCoord"] = 1;
+    document["extensionsUsed"] = {"KHR_materials_clearcoat"};
+    document["materials"][0]["emissiveTexture"]["texCoord"] = 2;
     const Scene scene = load(document);
     ASSERT_EQ(scene.notices.size(), 2u);
-    EXPECT_NE(scene.notices[0].find("KHR_lights_punctual"), std::string::npos);
+    EXPECT_NE(scene.notices[0].find("KHR_materials_clearcoat"), std::string::npos);
     EXPECT_NE(scene.notices[1].find("emissiveTexture of /materials/0"), std::string::npos);
     EXPECT_FALSE(scene.materials.at(0).emissive_texture);
 }

@@ -188,6 +188,49 @@ const std::vector<BrokenDocument>& faults() {
         {"buffer_outside_encoded", [](json& d) { d["buffers"][0]["uri"] = "%2e%2e/outside.bin"; }, "/buffers/0/uri",
          "leads out"},
         {"buffer_absolute", [](json& d) { d["buffers"][0]["uri"] = "/etc/passwd"; }, "/buffers/0/uri", "absolute"},
+        {"buffer_outside_encoded_slash", [](json& d) { d["buffers"][0]["uri"] = "..%2Foutside.bin"; }, "/buffers/0/uri",
+         "leads out"},
+        {"buffer_drive", [](json& d) { d["buffers"][0]["uri"] = "C:\\data.bin"; }, "/buffers/0/uri", "relative"},
+        {"buffer_folder_itself", [](json& d) { d["buffers"][0]["uri"] = "."; }, "/buffers/0/uri", "folder"},
+        {"buffer_empty_data",
+         [](json& d) {
+             d["buffers"][0] = {{"byteLength", 44}, {"uri", "data:application/octet-stream;base64,"}};
+         },
+         "/buffers/0/byteLength", "only 0"},
+        {"light_type",
+         [](json& d) {
+             d["extensions"]["KHR_lights_punctual"]["lights"] = json::array({{{"type", "area"}}});
+         },
+         "/extensions/KHR_lights_punctual/lights/0/type", "area"},
+        {"light_missing", [](json& d) { d["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 0; },
+         "/nodes/0/extensions/KHR_lights_punctual/light", "number 0 of 0 lights"},
+        {"light_cones",
+         [](json& d) {
+             d["extensions"]["KHR_lights_punctual"]["lights"] =
+                 json::array({{{"type", "spot"}, {"spot", {{"innerConeAngle", 1.0}, {"outerConeAngle", 0.5}}}}});
+         },
+         "/extensions/KHR_lights_punctual/lights/0/spot", "not below"},
+        {"variant_missing",
+         [](json& d) {
+             d["materials"] = json::array({json::object()});
+             primitive(d)["extensions"]["KHR_materials_variants"]["mappings"] =
+                 json::array({{{"material", 0}, {"variants", {4}}}});
+         },
+         "/meshes/0/primitives/0/extensions/KHR_materials_variants/mappings/0/variants/0", "number 4 of 0"},
+        {"transform_numbers",
+         [](json& d) {
+             d["images"] = json::array({{{"uri", "absent.png"}}});
+             d["textures"] = json::array({{{"source", 0}}});
+             d["materials"] =
+                 json::array({{{"emissiveTexture",
+                                {{"index", 0}, {"extensions", {{"KHR_texture_transform", {{"scale", {1}}}}}}}}}});
+         },
+         "/materials/0/emissiveTexture/extensions/KHR_texture_transform/scale", "2 numbers"},
+        {"ior_below_one",
+         [](json& d) {
+             d["materials"] = json::array({{{"extensions", {{"KHR_materials_ior", {{"ior", 0.5}}}}}}});
+         },
+         "/materials/0/extensions/KHR_materials_ior/ior", "0.5"},
         {"buffer_scheme", [](json& d) { d["buffers"][0]["uri"] = "file:///etc/passwd"; }, "/buffers/0/uri", "relative"},
         {"buffer_null", [](json& d) { d["buffers"][0]["uri"] = "a%00b"; }, "/buffers/0/uri", "names no file"},
         {"camera_far",
@@ -241,6 +284,22 @@ INSTANTIATE_TEST_SUITE_P(All, GltfFault, ::testing::ValuesIn(faults()),
 TEST(GltfError, TheUnbrokenDocumentLoads) {
     const TemporaryFolder folder;
     EXPECT_EQ(error_of(folder.write("whole.gltf", triangle_document().dump())), "");
+}
+
+TEST(GltfError, LinksThatLeadOut) {
+    const TemporaryFolder outside, folder;
+    outside.write("data.bin", triangle_bytes());
+    std::filesystem::create_symlink(outside.path() / "data.bin", folder.path() / "link.bin");
+    std::filesystem::create_directory_symlink(outside.path(), folder.path() / "linked");
+    folder.write("inside.bin", triangle_bytes());
+    std::filesystem::create_symlink("inside.bin", folder.path() / "harmless.bin");
+    json document = triangle_document();
+    for (const char* uri : {"link.bin", "linked/data.bin"}) {
+        document["buffers"][0]["uri"] = uri;
+        EXPECT_NE(error_of(folder.write("model.gltf", document.dump())).find("leads out"), std::string::npos) << uri;
+    }
+    document["buffers"][0]["uri"] = "harmless.bin";
+    EXPECT_EQ(error_of(folder.write("model.gltf", document.dump())), "");
 }
 
 struct ImageFault {

@@ -32,6 +32,7 @@ const Material* strongest_emitter(const Scene& scene) {
     for (const Surface& surface : scene.surfaces) {
         const Material& material = scene.materials[static_cast<std::size_t>(surface.material)];
         const float least = strongest ? strongest_channel(strongest->emissive) : 0.0f;
+        if (material.model == MaterialModel::unlit) continue;  // shows its colour and emits nothing
         if (strongest_channel(material.emissive) > least) strongest = &material;
     }
     return strongest;

@@ -25,7 +25,8 @@ constexpr std::array kLowInsertions = {
                            "mirrored_light += environment_reflection(reflect(-v, n), smoothness);"}};
 
 bool is_lit(const Scene& scene, const Surface& surface) {
-    return !scene.meshes[static_cast<std::size_t>(surface.mesh)].normals.empty();
+    return !scene.meshes[static_cast<std::size_t>(surface.mesh)].normals.empty() &&
+           scene.materials[static_cast<std::size_t>(surface.material)].model != MaterialModel::unlit;
 }
 
 Demand called_for(const PlanContext& context) {

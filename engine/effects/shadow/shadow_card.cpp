@@ -19,7 +19,7 @@ constexpr std::array kBlobShaders = {
     ShaderVariant{"shadow/shadow_blob.vert", "shadow/shadow_blob.frag", "SCENE_COLOR_LINEAR"}};
 constexpr std::array kMapShaders = {
     ShaderVariant{"shadow/shadow_map.vert", "shadow/shadow_map.frag",
-                  "ALPHA_MASK BASE_COLOR_MAP VERTEX_COLOR SKIN_SMALL SKIN_LARGE SKIN_TEXTURE"}};
+                  "ALPHA_MASK BASE_COLOR_MAP VERTEX_COLOR UV_MAPPED UV_FROM_1 SKIN_SMALL SKIN_LARGE SKIN_TEXTURE"}};
 constexpr gl::Insertion kInsertions[] = {
     {"surface.vertex", "shadow/shadow_place.glsl", "shadow_at = placed_in_shadow(at, n);"},
     {"surface.sun", "shadow/shadow_receive.glsl", "sun_light *= sun_share();"}};

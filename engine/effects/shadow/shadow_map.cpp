@@ -46,7 +46,8 @@ int ShadowMap::variant_of(Renderer& renderer, const std::vector<std::string_view
     if (const int map = program.uniform_if_used("base_color_map"); map >= 0)
         renderer.gl().Uniform1i(map, kBaseColorUnit);
     variants_.push_back({&program, program.uniform("clip_from_local"), program.uniform_if_used("mask"),
-                         program.uniform_if_used("uv_range"), skin});
+                         program.uniform_if_used("uv_range"), program.uniform_if_used("uv1_range"),
+                         program.uniform_if_used("uv_mapping"), skin});
     program.expect_all_uniforms_claimed();
     return static_cast<int>(variants_.size()) - 1;
 }
@@ -61,8 +62,12 @@ void ShadowMap::add_caster(Renderer& renderer, int body) {
         defines.push_back("ALPHA_MASK");
         caster.mask = {material.base_color.a, material.alpha_cutoff, 0.0f, 0.0f};
         if (renderer.mesh(surface.mesh).has_colors) defines.push_back("VERTEX_COLOR");
-        if (material.base_color_texture) {
+        const UvMapping& uv = material.base_color_uv;
+        if (material.base_color_texture && (uv.set == 0 || renderer.mesh(surface.mesh).has_uv1)) {
             defines.push_back("BASE_COLOR_MAP");
+            if (uv.set == 1) defines.push_back("UV_FROM_1");
+            if (!is_plain(uv)) defines.push_back("UV_MAPPED");
+            caster.uv_mapping = rows_of(uv);
             // Decoded as surface has it, so that the device holds it once.
             caster.texture =
                 renderer.texture(material.base_color_texture, base_color_use(material, renderer.caps().srgb_textures));
@@ -126,7 +131,9 @@ void ShadowMap::draw_casters(Renderer& renderer) {
         const glm::mat4 stored = from_stored(matrix, mesh.storage);
         gl.UniformMatrix4fv(variant.clip_from_local, 1, GL_FALSE, &stored[0][0]);
         if (variant.uv_range >= 0) gl.Uniform4fv(variant.uv_range, 1, &mesh.storage.uv_range.x);
+        if (variant.uv1_range >= 0) gl.Uniform4fv(variant.uv1_range, 1, &mesh.storage.uv1_range.x);
         if (variant.mask >= 0) gl.Uniform4fv(variant.mask, 1, &caster.mask.x);
+        if (variant.uv_mapping >= 0) gl.Uniform4fv(variant.uv_mapping, 2, &caster.uv_mapping[0].x);
         if (caster.texture != 0) renderer.bind_texture(kBaseColorUnit, caster.texture);
         renderer.draw_surface(body.surface, variant.skin);
     }

@@ -6,6 +6,7 @@
 
 #include "engine/effects/shadow/shadow_fit.h"
 #include "engine/frame/renderer.h"
+#include "engine/frame/uv_rows.h"
 
 namespace halfframe {
 
@@ -22,12 +23,13 @@ private:
     /// A program of casters and where its uniforms are.
     struct Variant {
         gl::Program* program = nullptr;
-        int clip_from_local = -1, mask = -1, uv_range = -1, skin = -1;
+        int clip_from_local = -1, mask = -1, uv_range = -1, uv1_range = -1, uv_mapping = -1, skin = -1;
     };
     struct Caster {
         int body = 0;
         int variant = 0;
         glm::vec4 mask{0.0f};
+        UvRows uv_mapping{};
         std::uint32_t texture = 0;
         glm::mat4 drawn_at{0.0f};  ///< where it stood when the map was drawn
     };

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <glm/gtc/color_space.hpp>
 
 #include "engine/effects/surface/surface.h"
 #include "engine/frame/camera_space.h"
@@ -33,12 +34,29 @@ glm::vec3 direction_to_eye(const View& view) {
 /// What the fragment stage makes of a material's numbers; without a map it is spared their powers and logarithms, which
 /// are those of shaders_es/surface/surface.glsl.
 glm::vec4 factors_of(const Material& material, bool maps_roughness) {
-    if (maps_roughness) return {material.metallic, material.roughness, material.normal_scale, 0.0f};
-    const float alpha_squared = std::pow(material.roughness, 4.0f);
+    const bool glossy = material.model == MaterialModel::specular_glossiness;
+    const float metallic = glossy ? 0.0f : material.metallic;
+    if (maps_roughness)
+        return {metallic, glossy ? material.smoothness : material.roughness, material.normal_scale, 0.0f};
+    const float roughness = glossy ? 1.0f - material.smoothness : material.roughness;
+    const float alpha_squared = std::pow(roughness, 4.0f);
     const auto least = static_cast<float>(2.0 / (SURFACE_POWER_MAX + 2.0));
     const float power = std::max(2.0f / std::max(alpha_squared, least) - 2.0f, static_cast<float>(SURFACE_POWER_MIN));
     const float smoothness = std::clamp((std::log2(power) - 1.0f) * 0.1f, 0.0f, 1.0f);
-    return {material.metallic, smoothness, material.normal_scale, power};
+    return {metallic, smoothness, material.normal_scale, power};
+}
+
+/// Units that no insertion of another effect reads: the glow is added by other programs, the shadow map exists above
+/// low only, the rough cube at low only.
+std::vector<int> spare_units(const Renderer& renderer) {
+    const auto reads = [&](std::string_view effect, bool at_low) {
+        const EffectDecision* decision = renderer.plan().find(effect);
+        return decision != nullptr && decision->in && (decision->tier == Tier::low) == at_low;
+    };
+    std::vector<int> units{kBloomUnit};
+    if (!reads("shadow", false)) units.push_back(kShadowUnit);
+    if (!reads("environment", true)) units.push_back(kRoughReflectionUnit);
+    return units;
 }
 
 using Order = SurfaceWork::Order;
@@ -60,13 +78,11 @@ void sort_by_key(std::vector<Order>& order, std::vector<Order>& spare) {
     }
 }
 
-/// Normals and metallic-roughness that are read at the same place in the same way come with one fetch.
-bool packs_maps(const Material& material) {
-    const Texture& normal = material.normal_texture;
-    Texture other = material.metallic_roughness_texture;
-    if (!normal || !other) return false;
-    other.image = normal.image;
-    return other == normal && material.normal_uv == material.metallic_roughness_uv;
+/// How the shader reads one of a material's textures.
+TextureUse use_of(const Material& material, const SurfaceTexture& texture, bool decoded) {
+    if (texture.define == "BASE_COLOR_MAP") return base_color_use(material, decoded);
+    if (texture.define == "NORMAL_MAP") return {.kind = TexelKind::normal};
+    return {.decoded = texture.srgb && decoded, .kind = texture.srgb ? TexelKind::color : TexelKind::data};
 }
 
 const Material& material_of(const Renderer& renderer, const Surface& surface) {
@@ -76,16 +92,17 @@ const Material& material_of(const Renderer& renderer, const Surface& surface) {
 }  // namespace
 
 std::vector<std::string_view> SurfaceWork::defines_of(const Renderer& renderer, const Surface& surface,
-                                                      std::span<const int> lights, bool chooses_lights) const {
+                                                      std::span<const int> lights, bool chooses_lights,
+                                                      const SurfaceTextures& textures) const {
     const Material& material = material_of(renderer, surface);
     const DrawMesh& mesh = renderer.mesh(surface.mesh);
-    const bool lit = mesh.has_normals;
-    std::vector<std::string_view> defines;
-    if (material.base_color_texture) defines.push_back("BASE_COLOR_MAP");
-    if (lit && material.metallic_roughness_texture) defines.push_back("METALLIC_ROUGHNESS_MAP");
-    if (lit && material.normal_texture && mesh.has_tangents) defines.push_back("NORMAL_MAP");
-    if (packs_maps(material) && lit && mesh.has_tangents) defines.push_back("PACKED_MAPS");
-    if (material.emissive_texture) defines.push_back("EMISSIVE_MAP");
+    const bool lit = mesh.has_normals && !is_unlit(material);
+    std::vector<std::string_view> defines = textures.defines;
+    if (lit || is_unlit(material)) {
+        const auto of_model = model_defines(material);
+        defines.insert(defines.end(), of_model.begin(), of_model.end());
+    }
+    if (is_unlit(material) && holds_display_values(renderer.plan().storage)) defines.push_back("SCENE_COLOR_DISPLAY");
     if (mesh.has_colors) defines.push_back("VERTEX_COLOR");
     if (material.alpha_mode == AlphaMode::mask) defines.push_back("ALPHA_MASK");
     if (material.alpha_mode == AlphaMode::blend) defines.push_back("ALPHA_BLEND");
@@ -107,7 +124,8 @@ std::vector<std::string_view> SurfaceWork::defines_of(const Renderer& renderer, 
     // At low every light is a point: it has no highlight that a sphere could widen.
     if (lit && std::ranges::any_of(lights, has_radius) && renderer.tier_of(card_.name) != Tier::low)
         defines.push_back("AREA_LIGHTS");
-    if (!lit) defines.push_back("UNLIT");  // glTF 2.0, 3.7.2.1: points and lines without normals are not lit
+    if (!lit && !is_unlit(material))
+        defines.push_back("UNLIT");  // glTF 2.0, 3.7.2.1: points and lines without normals are not lit
     if (mesh.mode == GL_POINTS) defines.push_back("POINTS");
     if (renderer.plan().storage == gl::PixelFormat::rgb10_a2) defines.push_back("SCENE_COLOR_PACKED");
     if (const std::string_view skin =
@@ -122,7 +140,8 @@ bool SurfaceWork::chooses_lights(const Scene& scene, const Surface& surface) con
            std::ranges::any_of(scene.lights, [](const Light& light) { return light.node >= 0; });
 }
 
-int SurfaceWork::variant_of(Renderer& renderer, const std::vector<std::string_view>& defines) {
+int SurfaceWork::variant_of(Renderer& renderer, const std::vector<std::string_view>& defines,
+                            std::span<const SurfaceTexture> textures) {
     // Asked for by its defines, because to ask for a program is to put its whole text together.
     const auto known = std::ranges::find(variants_, defines, &Variant::defines);
     if (known != variants_.end()) return static_cast<int>(known - variants_.begin());
@@ -130,7 +149,13 @@ int SurfaceWork::variant_of(Renderer& renderer, const std::vector<std::string_vi
     Variant variant;
     variant.program = &program;
     variant.defines = defines;
-    variant.maps_roughness = std::ranges::find(defines, "METALLIC_ROUGHNESS_MAP") != defines.end();
+    variant.maps_roughness = std::ranges::any_of(defines, [](std::string_view define) {
+        return define == "METALLIC_ROUGHNESS_MAP" || define == "PACKED_MAPS" || define == "SPECULAR_GLOSSINESS_MAP";
+    });
+    variant.uv_mapping = program.uniform_if_used("uv_mapping");
+    variant.uv_b_mapping = program.uniform_if_used("uv_b_mapping");
+    variant.specular_factors = program.uniform_if_used("specular_factors");
+    variant.uv1_range = program.uniform_if_used("uv1_range");
     variant.clip_from_local = program.uniform("clip_from_local");
     variant.eye_from_local = program.uniform_if_used("eye_from_local");
     variant.normal_from_local = program.uniform_if_used("normal_from_local");
@@ -150,11 +175,9 @@ int SurfaceWork::variant_of(Renderer& renderer, const std::vector<std::string_vi
     variant.light_size = program.uniform_if_used("light_size");
     variant.light_count = program.uniform_if_used("light_count");
     variant.skin = renderer.claim_skin(program);
-    for (const auto& [sampler, unit] :
-         {std::pair{"base_color_map", kBaseColorUnit}, std::pair{"metallic_roughness_map", kMetallicRoughnessUnit},
-          std::pair{"normal_map", kNormalUnit}, std::pair{"emissive_map", kEmissiveUnit}}) {
-        if (const int location = program.uniform_if_used(sampler); location >= 0)
-            renderer.gl().Uniform1i(location, unit);
+    for (const SurfaceTexture& texture : textures) {
+        if (const int location = program.uniform_if_used(texture.sampler); location >= 0)
+            renderer.gl().Uniform1i(location, texture.unit);
     }
     program.expect_all_uniforms_claimed();
     variants_.push_back(variant);
@@ -190,8 +213,12 @@ void SurfaceWork::add_draw(Renderer& renderer, int index) {
     }
     std::ranges::sort(lights);  // objects that the same lights reach share them, whichever is nearer
     std::ranges::sort(possible);
-    const auto defines = defines_of(renderer, surface, possible, draw.chooses_lights);
-    draw.variant = variant_of(renderer, defines);
+    const bool low = renderer.tier_of(card_.name) == Tier::low;
+    const SurfaceTextures textures =
+        surface_textures(material, renderer.mesh(surface.mesh), spare_units(renderer), low);
+    for (const std::string& sentence : textures.left_out) renderer.add_notice(sentence);
+    draw.variant =
+        variant_of(renderer, defines_of(renderer, surface, possible, draw.chooses_lights, textures), textures.used);
     if (draw.chooses_lights) {
         draw.light_set = static_cast<int>(light_sets_.size());
         lights.reserve(SURFACE_LIGHT_LIMIT + 1);
@@ -199,22 +226,14 @@ void SurfaceWork::add_draw(Renderer& renderer, int index) {
     } else {
         draw.light_set = light_set_of(std::move(lights));
     }
-    const bool decoded = renderer.tier_of(card_.name) != Tier::low && renderer.caps().srgb_textures;
-    const auto uses = [&](std::string_view define) { return std::ranges::find(defines, define) != defines.end(); };
-    const auto bind = [&](int unit, const Texture& texture, const TextureUse& use) {
-        draw.textures.push_back({unit, renderer.texture(texture, use)});
-    };
-    if (uses("BASE_COLOR_MAP")) bind(kBaseColorUnit, material.base_color_texture, base_color_use(material, decoded));
-    if (uses("PACKED_MAPS")) {
-        draw.textures.push_back(
-            {kNormalUnit, renderer.packed_texture(material.normal_texture, material.metallic_roughness_texture)});
-    } else {
-        if (uses("METALLIC_ROUGHNESS_MAP"))
-            bind(kMetallicRoughnessUnit, material.metallic_roughness_texture, {.kind = TexelKind::data});
-        if (uses("NORMAL_MAP")) bind(kNormalUnit, material.normal_texture, {.kind = TexelKind::normal});
+    draw.uv_mapping = rows_of(textures.first);
+    draw.uv_b_mapping = rows_of(textures.second);
+    const bool decoded = !low && renderer.caps().srgb_textures;
+    for (const SurfaceTexture& texture : textures.used) {
+        draw.textures.push_back({texture.unit, texture.packed ? renderer.packed_texture(texture.texture, texture.packed)
+                                                              : renderer.texture(texture.texture,
+                                                                                 use_of(material, texture, decoded))});
     }
-    if (uses("EMISSIVE_MAP"))
-        bind(kEmissiveUnit, material.emissive_texture, {.decoded = decoded, .kind = TexelKind::color});
     draws_.push_back(std::move(draw));
 }
 
@@ -254,7 +273,7 @@ void SurfaceWork::set_variant(Renderer& renderer, const View& view, Variant& var
     gl::EntryPoints& gl = renderer.gl();
     const float unknown = std::numeric_limits<float>::quiet_NaN();  // equals nothing: all is told anew
     variant.told_light_set = -1;
-    variant.told_uv_range = variant.told_direction_scale = variant.told_toward_eye = glm::vec4(unknown);
+    variant.told_uv_range = variant.told_uv1_range = variant.told_direction_scale = variant.told_toward_eye = glm::vec4(unknown);
     renderer.use(*variant.program);
     set(gl, variant.ambient, glm::vec4(renderer.scene().ambient * view.exposure, 0.0f));
     set(gl, variant.parallel_eye, view.orthographic ? glm::vec4(direction_to_eye(view), 0.0f) : kNotParallel);
@@ -264,14 +283,29 @@ void SurfaceWork::set_variant(Renderer& renderer, const View& view, Variant& var
     }
 }
 
+/// A lit colour is a reflectance; one that nothing lights is a radiance; an unlit material's is what the display shows,
+/// which the low tier takes encoded.
+glm::vec4 SurfaceWork::base_color_of(const Renderer& renderer, const View& view, const Material& material,
+                                     bool unlit) const {
+    glm::vec3 color(material.base_color);
+    if (is_unlit(material)) {
+        if (renderer.tier_of(card_.name) == Tier::low) color = glm::convertLinearToSRGB(color);
+    } else if (unlit) {
+        color *= view.exposure;
+    }
+    return {color, material.base_color.a};
+}
+
 void SurfaceWork::set_material(Renderer& renderer, const View& view, const Variant& variant, const Draw& draw) {
     gl::EntryPoints& gl = renderer.gl();
     const Material& material = renderer.scene().materials[static_cast<std::size_t>(draw.material)];
-    const bool unlit = variant.factors < 0;
-    const float base_exposure = unlit ? view.exposure : 1.0f;  // an unlit colour is a radiance, a lit one a reflectance
-    set(gl, variant.base_color, glm::vec4(glm::vec3(material.base_color) * base_exposure, material.base_color.a));
-    set(gl, variant.emissive, glm::vec4(material.emissive * view.exposure, material.alpha_cutoff));
+    set(gl, variant.base_color, base_color_of(renderer, view, material, variant.factors < 0));
+    const glm::vec3 emissive = is_unlit(material) ? glm::vec3(0.0f) : material.emissive * view.exposure;
+    set(gl, variant.emissive, glm::vec4(emissive, material.alpha_cutoff));
     set(gl, variant.factors, factors_of(material, variant.maps_roughness));
+    set(gl, variant.specular_factors, specular_factors_of(material));
+    if (variant.uv_mapping >= 0) gl.Uniform4fv(variant.uv_mapping, 2, &draw.uv_mapping[0].x);
+    if (variant.uv_b_mapping >= 0) gl.Uniform4fv(variant.uv_b_mapping, 2, &draw.uv_b_mapping[0].x);
     for (const TextureBinding& binding : draw.textures) renderer.bind_texture(binding.unit, binding.texture);
     renderer.set_cull(!draw.double_sided);
 }
@@ -291,6 +325,7 @@ void SurfaceWork::set_matrices(Renderer& renderer, const View& view, Variant& va
     if (variant.eye_from_local >= 0) set_matrix(variant.eye_from_local, glm::mat4(eye));
     set_matrix(variant.normal_from_local, draw.normal_from_local);
     tell(variant.uv_range, variant.told_uv_range, mesh.storage.uv_range);
+    tell(variant.uv1_range, variant.told_uv1_range, mesh.storage.uv1_range);
     tell(variant.direction_scale, variant.told_direction_scale, mesh.direction_scale);
     if (variant.toward_eye < 0) return;
     const glm::vec3 toward = view.orthographic ? direction_to_eye(view) : glm::vec3(0.0f);

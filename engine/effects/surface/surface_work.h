@@ -7,9 +7,11 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/effects/surface/surface_textures.h"
 #include "engine/frame/camera_space.h"
 #include "engine/frame/effect_card.h"
 #include "engine/frame/renderer.h"
+#include "engine/frame/uv_rows.h"
 #include "shaders_es/surface/surface_limits.h"
 
 namespace halfframe {
@@ -35,12 +37,13 @@ private:
         gl::Program* program = nullptr;
         std::vector<std::string_view> defines;
         bool maps_roughness = false;
+        int uv_mapping = -1, uv_b_mapping = -1, specular_factors = -1;
         int clip_from_local = -1, eye_from_local = -1, normal_from_local = -1, toward_eye = -1;
-        int uv_range = -1, direction_scale = -1;
+        int uv_range = -1, uv1_range = -1, direction_scale = -1;
         int base_color = -1, emissive = -1, factors = -1, ambient = -1, parallel_eye = -1;
         int sun_direction = -1, sun_color = -1;
         // What the program was last told, since it became current.
-        glm::vec4 told_uv_range{0.0f}, told_direction_scale{0.0f}, told_toward_eye{0.0f};
+        glm::vec4 told_uv_range{0.0f}, told_uv1_range{0.0f}, told_direction_scale{0.0f}, told_toward_eye{0.0f};
         int told_light_set = -1;
         float told_light_scale = 0.0f;
         int light_position = -1, light_color = -1, light_direction = -1, light_size = -1, light_count = -1;
@@ -65,6 +68,7 @@ private:
         glm::mat4 placed_at{0.0f};
         glm::mat4 normal_from_local{1.0f};
         glm::vec3 centre{0.0f};  ///< of its box [m], world
+        UvRows uv_mapping{}, uv_b_mapping{};
         std::vector<TextureBinding> textures;
     };
     /// The lights of one object or many, and what their lengths are multiplied with in this frame.
@@ -75,15 +79,19 @@ private:
     };
 
     [[nodiscard]] std::vector<std::string_view> defines_of(const Renderer& renderer, const Surface& surface,
-                                                           std::span<const int> lights, bool chooses_lights) const;
+                                                           std::span<const int> lights, bool chooses_lights,
+                                                           const SurfaceTextures& textures) const;
     [[nodiscard]] bool chooses_lights(const Scene& scene, const Surface& surface) const;
-    int variant_of(Renderer& renderer, const std::vector<std::string_view>& defines);
+    int variant_of(Renderer& renderer, const std::vector<std::string_view>& defines,
+                   std::span<const SurfaceTexture> textures);
     void add_draw(Renderer& renderer, int surface);
     void rank_states();
     void place(const Renderer& renderer, Draw& draw);
     void sort(const View& view);
     void set_variant(Renderer& renderer, const View& view, Variant& variant);
     void set_material(Renderer& renderer, const View& view, const Variant& variant, const Draw& draw);
+    [[nodiscard]] glm::vec4 base_color_of(const Renderer& renderer, const View& view, const Material& material,
+                                          bool unlit) const;
     void set_matrices(Renderer& renderer, const View& view, Variant& variant, const Draw& draw, const DrawMesh& mesh,
                       const glm::dmat4& eye, const glm::mat4& clip, float scale);
     [[nodiscard]] float fragment_length_scale(const Renderer& renderer, const View& view, const Draw& draw) const;

@@ -1,0 +1,41 @@
+// The extensions of glTF 2.0 that are read: looking them up, checking them, and what they change in a document.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "content/content.h"
+#include "content/gltf_document.h"
+
+namespace halfframe::content {
+
+/// Extensions whose effect on the picture is complete here.
+[[nodiscard]] std::span<const std::string_view> supported_extensions();
+
+/// The extension object of `owner`, when it has one.
+[[nodiscard]] std::optional<JsonPlace> extension(const JsonPlace& owner, std::string_view name);
+
+/// Every reference, range and number inside extensions that this loader relies on. Error(input) at the first fault.
+void check_gltf_extensions(const GltfDocument& document);
+/// Parts of it.
+void check_material_extensions(const JsonPlace& root, const JsonPlace& material);
+void check_texture_transform(const JsonPlace& texture_use);
+
+/// The compression of a buffer view (EXT_meshopt_compression, or its successor with the same streams).
+[[nodiscard]] std::optional<JsonPlace> meshopt_of(const JsonPlace& buffer_view);
+void check_meshopt(const JsonPlace& root);
+/// Puts what compressed buffer views hold into buffers of their own and points the views there. A damaged stream:
+/// Error(input).
+void decode_meshopt(GltfDocument& document, GltfResources& resources);
+
+/// Makes the chosen scene the document's default one, and gives every primitive the material of the chosen variant
+/// (KHR_materials_variants). A choice that the file does not offer: Error(usage) with those that it does.
+void apply_choices(GltfDocument& document, const LoadOptions& options);
+
+/// The light of a node (KHR_lights_punctual), placed; nothing where it has none.
+[[nodiscard]] std::optional<Light> light_of_node(const GltfDocument& document, std::size_t node,
+                                                 const glm::mat4& world_from_local);
+
+}  // namespace halfframe::content

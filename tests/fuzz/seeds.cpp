@@ -1,0 +1,126 @@
+// Writes the seeds from documents of the content tests.
+#include "tests/fuzz/seeds.h"
+
+#include <meshoptimizer.h>
+
+#include "tests/content/temporary_gltf.h"
+
+namespace halfframe::tests {
+namespace {
+
+using nlohmann::json;
+
+json textured() {
+    json document = triangle_document();
+    document["images"] =
+        json::array({{{"uri", "data:image/png;base64," + base64(two_pixel_png())}}, {{"uri", "picture.png"}}});
+    document["samplers"] = json::parse(R"([{"magFilter": 9728, "minFilter": 9986, "wrapS": 33071, "wrapT": 33648}])");
+    document["textures"] = json::parse(R"([{"source": 0, "sampler": 0}, {"source": 1}])");
+    document["materials"] = json::parse(R"([{
+        "pbrMetallicRoughness": {"baseColorFactor": [1, 0.5, 0.25, 1], "metallicFactor": 0.5, "roughnessFactor": 0.5,
+            "baseColorTexture": {"index": 0, "extensions": {"KHR_texture_transform": {"offset": [0.5, 0], "rotation": 1,
+                "scale": [2, 2], "texCoord": 1}}}, "metallicRoughnessTexture": {"index": 1}},
+        "normalTexture": {"index": 1, "scale": 2}, "occlusionTexture": {"index": 1, "strength": 0.5},
+        "emissiveTexture": {"index": 0}, "emissiveFactor": [1, 1, 1], "alphaMode": "MASK", "alphaCutoff": 0.4,
+        "doubleSided": true,
+        "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 3}, "KHR_materials_ior": {"ior": 1.4},
+            "KHR_materials_specular": {"specularFactor": 0.5, "specularColorFactor": [1, 2, 1],
+                "specularTexture": {"index": 1}}}},
+        {"extensions": {"KHR_materials_unlit": {}}},
+        {"extensions": {"KHR_materials_pbrSpecularGlossiness": {"diffuseFactor": [1, 1, 1, 1], "glossinessFactor": 0.5,
+            "specularGlossinessTexture": {"index": 0}}}}])");
+    json& primitive = document["meshes"][0]["primitives"][0];
+    primitive["material"] = 0;
+    primitive["extensions"] = json::parse(R"({"KHR_materials_variants": {"mappings": [
+        {"material": 1, "variants": [0]}, {"material": 2, "variants": [1]}]}})");
+    document["extensions"] = json::parse(R"({"KHR_materials_variants": {"variants": [{"name": "a"}, {"name": "b"}]}})");
+    std::string coordinates;
+    append(coordinates, std::vector<std::uint16_t>{0, 0, 65535, 0, 0, 65535});
+    const std::size_t view = add_view(document, coordinates);
+    for (const char* name : {"TEXCOORD_0", "TEXCOORD_1"})
+        primitive["attributes"][name] = add_accessor(document, view, 5123, "VEC2", 3, true);
+    std::string normals;
+    append(normals, std::vector<float>{0, 0, 1, 0, 0, 1, 0, 0, 1});
+    primitive["attributes"]["NORMAL"] = add_accessor(document, add_view(document, normals), 5126, "VEC3", 3);
+    return document;
+}
+
+json placed() {
+    json document = triangle_document();
+    document["extensionsUsed"] = {"KHR_lights_punctual", "EXT_mesh_gpu_instancing", "KHR_mesh_quantization"};
+    document["extensions"] = json::parse(R"({"KHR_lights_punctual": {"lights": [
+        {"type": "directional", "color": [1, 0.5, 0], "intensity": 2}, {"type": "point", "name": "bulb", "range": 4},
+        {"type": "spot", "spot": {"innerConeAngle": 0.1, "outerConeAngle": 0.4}}]}})");
+    document["cameras"] = json::parse(R"([
+        {"type": "perspective", "perspective": {"yfov": 0.7, "znear": 0.1, "zfar": 100, "aspectRatio": 1.5}},
+        {"type": "orthographic", "orthographic": {"xmag": 1, "ymag": 1, "znear": 0, "zfar": 10}}])");
+    document["nodes"] = json::parse(R"([
+        {"mesh": 0, "scale": [-1, 1, 1], "children": [1, 2]},
+        {"camera": 0, "rotation": [0, 0, 0, 1], "extensions": {"KHR_lights_punctual": {"light": 1}}},
+        {"camera": 1, "matrix": [1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1], "extensions": {"KHR_lights_punctual": {"light": 2}}},
+        {"mesh": 0, "extensions": {"EXT_mesh_gpu_instancing": {"attributes": {}}}}])");
+    document["scenes"] = json::parse(R"([{"nodes": [0]}, {"name": "many", "nodes": [3]}])");
+    document["scene"] = 1;
+    std::string places;
+    append(places, std::vector<float>{1, 0, 0, 2, 0, 0});
+    document["nodes"][3]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"] =
+        add_accessor(document, add_view(document, places), 5126, "VEC3", 2);
+    return document;
+}
+
+json sparse() {
+    json document = triangle_document();
+    std::string index, value;
+    append(index, std::vector<std::uint8_t>{1});
+    append(value, std::vector<float>{2, 0, 0});
+    document["accessors"][1]["sparse"] = {
+        {"count", 1},
+        {"indices", {{"bufferView", add_view(document, index)}, {"componentType", 5121}}},
+        {"values", {{"bufferView", add_view(document, value)}}}};
+    document["meshes"][0]["primitives"][0]["mode"] = 5;
+    return document;
+}
+
+json compressed() {
+    json document = triangle_document();
+    const std::vector<float> positions{0, 0, 0, 1, 0, 0, 0, 1, 0};
+    std::string stream(meshopt_encodeVertexBufferBound(3, 12), '\0');
+    stream.resize(meshopt_encodeVertexBuffer(reinterpret_cast<unsigned char*>(stream.data()), stream.size(),
+                                             positions.data(), 3, 12));
+    const std::size_t buffer = document["buffers"].size();
+    document["buffers"].push_back(
+        {{"byteLength", stream.size()}, {"uri", "data:application/octet-stream;base64," + base64(stream)}});
+    document["bufferViews"][1]["extensions"]["EXT_meshopt_compression"] = {
+        {"buffer", buffer}, {"byteLength", stream.size()}, {"byteStride", 12}, {"count", 3}, {"mode", "ATTRIBUTES"}};
+    document["extensionsRequired"] = {"EXT_meshopt_compression"};
+    return document;
+}
+
+json beside() {
+    json document = triangle_document();
+    document["buffers"][0]["uri"] = "d%61ta.bin";
+    document["animations"] = json::parse(R"([{"samplers": [{"input": 0, "output": 1}],
+        "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]}])");
+    document["skins"] = json::parse(R"([{"joints": [0]}])");
+    return document;
+}
+
+}  // namespace
+
+std::vector<Seed> gltf_seeds() {
+    std::vector<Seed> seeds;
+    for (const auto& [name, document] : {std::pair<const char*, json>{"triangle", triangle_document()},
+                                         {"textured", textured()},
+                                         {"placed", placed()},
+                                         {"sparse", sparse()},
+                                         {"compressed", compressed()},
+                                         {"beside", beside()}}) {
+        seeds.push_back({std::string(name) + ".gltf", document.dump()});
+    }
+    json binary = triangle_document();
+    binary["buffers"][0].erase("uri");
+    seeds.push_back({"triangle.glb", glb(binary.dump(), triangle_bytes())});
+    return seeds;
+}
+
+}  // namespace halfframe::tests

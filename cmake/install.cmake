@@ -18,9 +18,11 @@ set(HALFFRAME_PUBLIC_HEADERS
   engine/frame/renderer.h
   engine/frame/motion.h
   engine/frame/scene.h
+  engine/frame/texture_storage.h
   engine/frame/tier.h
   engine/frame/uploads.h
   engine/frame/vertex_layout.h
+  engine/frame/vertex_storage.h
   engine/gl/call_ledger.h
   engine/gl/caps.h
   engine/gl/entry_points.h

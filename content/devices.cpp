@@ -18,6 +18,7 @@ struct Limit {
     std::uint64_t lowest;
 };
 constexpr std::uint64_t kHighestLimit = 1u << 20;
+constexpr std::uint64_t kHighestBytes = std::uint64_t{1} << 40;
 constexpr std::array<Limit, 13> kLimits{{
     {"max_texture_size", &gl::DeviceProfile::max_texture_size, 1},
     {"max_cube_map_size", &gl::DeviceProfile::max_cube_map_size, 1},
@@ -43,11 +44,26 @@ int es_version_at(const JsonPlace& place) {
 }
 
 gl::DeviceProfile profile_from(const JsonPlace& root) {
-    root.expect_only({"name", "source", "es_version", "fragment_highp", "extensions", "max_texture_size",
-                      "max_cube_map_size", "max_renderbuffer_size", "max_vertex_attributes",
-                      "max_vertex_uniform_vectors", "max_fragment_uniform_vectors", "max_varying_vectors",
-                      "max_fragment_samplers", "max_vertex_samplers", "max_combined_samplers", "max_draw_buffers",
-                      "max_samples", "max_texture_3d_size"});
+    root.expect_only({"name",
+                      "source",
+                      "es_version",
+                      "fragment_highp",
+                      "extensions",
+                      "max_texture_size",
+                      "max_cube_map_size",
+                      "max_renderbuffer_size",
+                      "max_vertex_attributes",
+                      "max_vertex_uniform_vectors",
+                      "max_fragment_uniform_vectors",
+                      "max_varying_vectors",
+                      "max_fragment_samplers",
+                      "max_vertex_samplers",
+                      "max_combined_samplers",
+                      "max_draw_buffers",
+                      "max_samples",
+                      "max_texture_3d_size",
+                      "max_texture_bytes",
+                      "prefers_s3tc"});
     gl::DeviceProfile profile;
     profile.name = root.at("name").text();
     profile.source = root.at("source").text();
@@ -65,6 +81,12 @@ gl::DeviceProfile profile_from(const JsonPlace& root) {
             }
             profile.extensions->push_back(extension);
         }
+    }
+    if (root.has("max_texture_bytes")) {
+        profile.max_texture_bytes = root.at("max_texture_bytes").whole(1, kHighestBytes);
+    }
+    if (root.has("prefers_s3tc")) {
+        profile.prefers_s3tc = root.at("prefers_s3tc").boolean();
     }
     for (const Limit& limit : kLimits) {
         if (root.has(limit.key)) {

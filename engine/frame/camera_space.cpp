@@ -43,13 +43,39 @@ glm::mat4 normal_from_local(const glm::mat4& world_from_local) {
     return glm::mat4(glm::mat3(glm::transpose(glm::inverse(upper))));
 }
 
+ViewSpace view_space(const View& view) {
+    glm::dmat4 view_from_eye(view.view_from_world);
+    view_from_eye[3] = glm::dvec4(0.0, 0.0, 0.0, 1.0);  // the eye is the origin already
+    return {glm::dmat4(view.clip_from_view) * view_from_eye, glm::dvec3(view.eye)};
+}
+
+glm::dmat4 eye_from_stored(const ViewSpace& space, const glm::mat4& world_from_local, const StoredPositions& stored) {
+    glm::dmat4 matrix(world_from_local);
+    matrix[3] -= glm::dvec4(space.eye, 0.0) * matrix[3].w;
+    matrix[3] += matrix[0] * stored.origin.x + matrix[1] * stored.origin.y + matrix[2] * stored.origin.z;
+    for (int axis = 0; axis < 3; ++axis) matrix[axis] *= stored.step[axis];
+    return matrix;
+}
+
+glm::mat4 clip_from_stored(const ViewSpace& space, const glm::dmat4& eye_from_stored_matrix) {
+    return glm::mat4(space.clip_from_eye * eye_from_stored_matrix);
+}
+
+// A box is outside a plane when its centre is farther out than its corners reach: the sum of what each axis adds.
 bool outside_view(const Box& local, const glm::mat4& clip_from_local_matrix) {
     if (local.empty()) return true;
-    const auto corners = clip_corners(local, clip_from_local_matrix);
+    const glm::vec3 half = (local.high - local.low) * 0.5f;
+    const glm::vec4 centre = clip_from_local_matrix * glm::vec4((local.low + local.high) * 0.5f, 1.0f);
+    const glm::vec4 x = clip_from_local_matrix[0] * half.x, y = clip_from_local_matrix[1] * half.y,
+                    z = clip_from_local_matrix[2] * half.z;
     for (int axis = 0; axis < 3; ++axis) {
-        if (std::ranges::all_of(corners, [&](const glm::vec4& corner) { return corner[axis] < -corner.w; }))
-            return true;
-        if (std::ranges::all_of(corners, [&](const glm::vec4& corner) { return corner[axis] > corner.w; })) return true;
+        const auto reach = [axis](const glm::vec4& along, float side) {
+            return std::abs(along.w + side * along[axis]);
+        };
+        for (const float side : {1.0f, -1.0f}) {
+            const float inside = centre.w + side * centre[axis];
+            if (inside < -(reach(x, side) + reach(y, side) + reach(z, side))) return true;
+        }
     }
     return false;
 }

@@ -57,8 +57,8 @@ gl::ProgramDescription describe_variant(const EffectCard& card, const ShaderVari
         });
         description.defines.emplace_back(std::string(define), "1");
     }
-    description.attributes = {
-        {"position", kPosition}, {"normal", kNormal}, {"tangent", kTangent}, {"uv", kUv}, {"color", kColor}};
+    description.attributes = {{"position", kPosition}, {"normal", kNormal}, {"tangent", kTangent}, {"uv", kUv},
+                              {"color", kColor},       {"uv1", kUv1}};
     return description;
 }
 

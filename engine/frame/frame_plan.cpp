@@ -199,6 +199,15 @@ void decide(const EffectCard& card, const PlanContext& context, const Wishes& wi
     plan.effects.push_back(std::move(decision));
 }
 
+TextureCompression chosen_textures(const Wishes& wishes, const gl::Caps& caps, std::vector<std::string>& notices) {
+    const bool wished = wishes.textures ? *wishes.textures == TextureCompression::dxt : caps.prefers_s3tc;
+    if (!wished) return TextureCompression::none;
+    if (caps.s3tc) return TextureCompression::dxt;
+    notices.push_back(
+        fmt::format("textures are not compressed: {} has no GL_EXT_texture_compression_s3tc", caps.device));
+    return TextureCompression::none;
+}
+
 }  // namespace
 
 std::size_t FramePlan::target_bytes() const {
@@ -258,6 +267,8 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Wishes& wishes,
     plan.arithmetic = chosen_arithmetic(wishes, caps);
     plan.storage = chosen_storage(wishes, plan.tier, caps, plan.notices);
     plan.census = wishes.census;
+    plan.vertices = wishes.vertices;
+    plan.textures = chosen_textures(wishes, caps, plan.notices);
     if (!wishes.storage && !wishes.census) plan.bytes_per_pixel_limit = bytes_per_pixel_limit(plan.tier);
     plan.depth_format =
         renders(caps, PixelFormat::depth24) && plan.tier != Tier::low ? PixelFormat::depth24 : PixelFormat::depth16;

@@ -9,7 +9,9 @@
 
 #include "engine/frame/effect_card.h"
 #include "engine/frame/scene.h"
+#include "engine/frame/texture_storage.h"
 #include "engine/frame/tier.h"
+#include "engine/frame/vertex_storage.h"
 #include "engine/gl/caps.h"
 
 namespace halfframe {
@@ -22,6 +24,8 @@ struct Wishes {
     std::optional<Arithmetic> arithmetic;                       ///< empty: automatic
     std::optional<gl::PixelFormat> storage;                     ///< empty: highest of the ladder that renders
     bool census = false;                                        ///< every colour target RGBA32F, to count NaN and inf
+    VertexPrecision vertices = VertexPrecision::half;           ///< bits of positions, directions, UVs and colours
+    std::optional<TextureCompression> textures;                 ///< empty: what the device profile says, else none
 };
 
 /// A texture that passes write and read.
@@ -78,6 +82,8 @@ struct FramePlan {
     Arithmetic arithmetic = Arithmetic::full;
     gl::PixelFormat storage = gl::PixelFormat::rgba16f;  ///< of scene_color
     bool census = false;
+    VertexPrecision vertices = VertexPrecision::half;
+    TextureCompression textures = TextureCompression::none;
     /// Limit on the bytes a pixel of all targets together: the tier's, or none when the storage was asked for by name.
     std::optional<double> bytes_per_pixel_limit;
     std::vector<Target> targets;

@@ -98,6 +98,8 @@ struct Renderer::State {
     std::uint32_t depth_function = 0;
     std::uint32_t array = ~0u;
     std::uint32_t vertex_buffer = ~0u;
+    unsigned attributes = 0;  ///< bits of the arrays that are on, where there are no vertex array objects
+    bool attributes_known = false;
 };
 
 Renderer::Renderer(gl::EntryPoints& gl, const gl::Caps& caps, RendererDescription description)
@@ -107,7 +109,7 @@ Renderer::Renderer(gl::EntryPoints& gl, const gl::Caps& caps, RendererDescriptio
       programs_(gl, caps, description_.program_cache_folder),
       targets_(std::make_unique<Targets>()),
       state_(std::make_unique<State>()),
-      textures_(std::make_unique<TextureStore>(gl, caps)) {}
+      textures_(std::make_unique<TextureStore>(gl, caps, TextureCompression::none)) {}
 
 Renderer::~Renderer() = default;
 
@@ -186,7 +188,8 @@ void Renderer::prepare(const Scene& scene, const FramePlan& plan) {
     *state_ = {};
     meshes_.clear();
     notices_.clear();
-    textures_ = std::make_unique<TextureStore>(gl_, caps_);
+    textures_ = std::make_unique<TextureStore>(gl_, caps_, plan.textures);
+    textures_->fit(scene, notices_);
     texture_bytes_ = 0;
     own_texture_bytes_ = 0;
     scene_ = &scene;
@@ -198,7 +201,9 @@ void Renderer::prepare(const Scene& scene, const FramePlan& plan) {
         gl_.BindVertexArray(targets_->loose_array.name());
     }
     allocate_targets();
-    for (const Mesh& mesh : scene.meshes) meshes_.push_back(upload_mesh(gl_, caps_, mesh));
+    const auto storages = plan_vertex_storage(scene, plan_.vertices, notices_);
+    for (std::size_t i = 0; i < scene.meshes.size(); ++i)
+        meshes_.push_back(upload_mesh(gl_, caps_, scene.meshes[i], storages[i]));
     make_works();
     if (const std::uint32_t error = gl_.GetError(); error != GL_NO_ERROR) {
         throw Error(Fault::context,
@@ -460,14 +465,21 @@ std::vector<CensusRow> Renderer::census() {
     return rows;
 }
 
-std::uint32_t Renderer::texture(const Texture& texture, bool decoded) {
-    const std::uint32_t texture_name = textures_->get(*scene_, texture, decoded, notices_);
+std::uint32_t Renderer::texture(const Texture& texture, const TextureUse& use) {
+    const std::uint32_t texture_name = textures_->get(*scene_, texture, use, notices_);
+    texture_bytes_ = textures_->bytes();
+    return texture_name;
+}
+
+std::uint32_t Renderer::packed_texture(const Texture& normals, const Texture& metallic_roughness) {
+    const std::uint32_t texture_name = textures_->get_packed(*scene_, normals, metallic_roughness, notices_);
     texture_bytes_ = textures_->bytes();
     return texture_name;
 }
 
 std::vector<std::string> Renderer::notices() const {
     std::vector<std::string> all = notices_;
+    if (const std::string sentence = textures_->compression(); !sentence.empty()) all.push_back(sentence);
     all.insert(all.end(), programs_.notices().begin(), programs_.notices().end());
     return all;
 }
@@ -537,11 +549,21 @@ void Renderer::draw_full_screen() {
         state_->vertex_buffer = targets_->triangle.name();
         gl_.BindBuffer(GL_ARRAY_BUFFER, state_->vertex_buffer);
         gl_.VertexAttribPointer(kPosition, 2, GL_FLOAT, GL_FALSE, 0, nullptr);
-        gl_.EnableVertexAttribArray(kPosition);
-        for (const int attribute : {kNormal, kTangent, kUv, kColor})
-            gl_.DisableVertexAttribArray(static_cast<GLuint>(attribute));
+        enable_attributes(1u << kPosition);
     }
     gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+// An array left on from another mesh would be read past the end of its buffer.
+void Renderer::enable_attributes(unsigned wanted) {
+    for (int attribute = 0; attribute < kVertexAttributes; ++attribute) {
+        const unsigned bit = 1u << attribute;
+        if ((state_->attributes & bit) == (wanted & bit) && state_->attributes_known) continue;
+        if ((wanted & bit) != 0) gl_.EnableVertexAttribArray(static_cast<GLuint>(attribute));
+        else gl_.DisableVertexAttribArray(static_cast<GLuint>(attribute));
+    }
+    state_->attributes = wanted;
+    state_->attributes_known = true;
 }
 
 void Renderer::draw_mesh(const DrawMesh& mesh) {
@@ -552,7 +574,11 @@ void Renderer::draw_mesh(const DrawMesh& mesh) {
         } else if (state_->vertex_buffer != part.vertices.name()) {
             state_->vertex_buffer = part.vertices.name();
             gl_.BindBuffer(GL_ARRAY_BUFFER, part.vertices.name());
-            set_vertex_layout(gl_);
+            set_vertex_layout(gl_, mesh.layout);
+            unsigned wanted = 0;
+            for (int i = 0; i < mesh.layout.count; ++i)
+                wanted |= 1u << mesh.layout.streams[static_cast<std::size_t>(i)].attribute;
+            enable_attributes(wanted);
             if (part.indices) gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, part.indices.name());
         }
         if (part.indices) {

@@ -93,9 +93,10 @@ public:
     [[nodiscard]] const FramePlan& plan() const { return plan_; }
     [[nodiscard]] const Scene& scene() const { return *scene_; }
     [[nodiscard]] const DrawMesh& mesh(int index) const { return meshes_[static_cast<std::size_t>(index)]; }
-    /// Device texture of a scene texture, uploaded once. `decoded`: sRGB is decoded on fetch (ES 3.0); else the shader
-    /// gets the bytes as they are.
-    [[nodiscard]] std::uint32_t texture(const Texture& texture, bool decoded);
+    /// Device texture of a scene texture, uploaded once for each use.
+    [[nodiscard]] std::uint32_t texture(const Texture& texture, const TextureUse& use);
+    /// The same for packed_surface_map() of two textures that are sampled alike.
+    [[nodiscard]] std::uint32_t packed_texture(const Texture& normals, const Texture& metallic_roughness);
     /// Bytes of every texture on the device, mip levels included.
     [[nodiscard]] std::size_t texture_bytes() const { return texture_bytes_ + own_texture_bytes_; }
     /// Adds a texture that an effect has uploaded itself to that sum.
@@ -134,6 +135,7 @@ private:
     void adopt_insertions(const std::string& prefix, gl::Program& program);
     void begin(const Pass& pass, std::uint32_t framebuffer);
     void finish_frame();
+    void enable_attributes(unsigned wanted);
     void draw_passes(const View& view, PassTimer* timer);
 
     gl::EntryPoints& gl_;

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 #include <unordered_map>
 
 #include <fmt/format.h>
@@ -16,27 +17,72 @@ namespace halfframe {
 
 namespace {
 
-std::int16_t snorm16(float x) { return static_cast<std::int16_t>(std::lround(std::clamp(x, -1.0f, 1.0f) * 32767.0f)); }
-std::uint8_t unorm8(float x) { return static_cast<std::uint8_t>(std::lround(std::clamp(x, 0.0f, 1.0f) * 255.0f)); }
-
-PackedVertex packed_vertex(const Mesh& mesh, std::size_t i) {
-    PackedVertex vertex{};
-    const glm::vec3 position = mesh.positions[i];
-    const glm::vec3 normal = mesh.normals.empty() ? glm::vec3(0.0f, 0.0f, 1.0f) : mesh.normals[i];
-    const glm::vec4 tangent = mesh.tangents.empty() ? glm::vec4(1.0f, 0.0f, 0.0f, 1.0f) : mesh.tangents[i];
-    const glm::vec2 uv = mesh.uv.empty() ? glm::vec2(0.0f) : mesh.uv[i];
-    const glm::vec4 color = mesh.colors.empty() ? glm::vec4(1.0f) : mesh.colors[i];
-    for (int k = 0; k < 3; ++k) {
-        vertex.position[k] = position[k];
-        vertex.normal[k] = snorm16(normal[k]);
-        vertex.tangent[k] = snorm16(tangent[k]);
-    }
-    vertex.tangent[3] = snorm16(tangent.w);
-    vertex.uv[0] = uv.x;
-    vertex.uv[1] = uv.y;
-    for (int k = 0; k < 4; ++k) vertex.color[k] = unorm8(color[k]);
-    return vertex;
+template <typename Value>
+void write(std::byte* to, const Value& value) {
+    std::memcpy(to, &value, sizeof(value));
 }
+
+void write_direction(std::byte* to, StreamFormat format, const glm::vec3& normal) {
+    if (format == StreamFormat::bits16) write(to, octahedral16(normal));
+    else write(to, glm::vec2(octahedral(normal)));
+}
+
+void write_tangent(std::byte* to, StreamFormat format, const glm::vec4& tangent) {
+    if (format == StreamFormat::bits16) write(to, octahedral16_tangent(tangent));
+    else write(to, glm::vec2(octahedral_tangent(tangent)));
+}
+
+void write_uv(std::byte* to, StreamFormat format, const glm::vec2& uv, const glm::vec4& range) {
+    if (format == StreamFormat::bits16) write(to, uv16(uv, range));
+    else write(to, uv);
+}
+
+void write_color(std::byte* to, StreamFormat format, const glm::vec4& color) {
+    const glm::vec4 bounded = glm::clamp(color, 0.0f, 1.0f);
+    if (format == StreamFormat::bits8) write(to, glm::u8vec4(glm::round(bounded * 255.0f)));
+    else if (format == StreamFormat::bits16) write(to, glm::u16vec4(glm::round(bounded * 65535.0f)));
+    else write(to, color);
+}
+
+/// Appends vertices of one mesh to pieces.
+class VertexWriter {
+public:
+    VertexWriter(const Mesh& mesh, const MeshStorage& storage)
+        : mesh_(mesh), storage_(storage), layout_(vertex_layout(storage)) {}
+
+    void append(MeshPiece& piece, std::size_t vertex) const {
+        const std::size_t begin = piece.vertices.size();
+        piece.vertices.resize(begin + static_cast<std::size_t>(layout_.stride));
+        ++piece.vertex_count;
+        for (int i = 0; i < layout_.count; ++i) {
+            const VertexStream& stream = layout_.streams[static_cast<std::size_t>(i)];
+            write_stream(piece.vertices.data() + begin + stream.offset, stream.attribute, vertex);
+        }
+    }
+
+private:
+    void write_stream(std::byte* to, VertexAttribute attribute, std::size_t i) const {
+        switch (attribute) {
+            case kPosition:
+                if (storage_.positions == StreamFormat::bits16)
+                    write(to, position16(mesh_.positions[i], storage_.position_box));
+                else write(to, mesh_.positions[i]);
+                return;
+            case kNormal: return write_direction(to, storage_.normals, mesh_.normals[i]);
+            case kTangent: return write_tangent(to, storage_.tangents, mesh_.tangents[i]);
+            case kUv: return write_uv(to, storage_.uv, mesh_.uv[i], storage_.uv_range);
+            case kUv1: return write_uv(to, storage_.uv1, mesh_.uv1[i], storage_.uv1_range);
+            case kColor: return write_color(to, storage_.colors, mesh_.colors[i]);
+            case kJoints:
+            case kWeights: break;
+        }
+        throw Mistake("a stream that no interleaved vertex has");
+    }
+
+    const Mesh& mesh_;
+    const MeshStorage& storage_;
+    VertexLayout layout_;
+};
 
 /// Indices of the same picture as a list of points, lines or triangles.
 struct PrimitiveList {
@@ -79,7 +125,7 @@ std::uint32_t gl_mode(Primitive primitive) {
     return kModes[static_cast<std::size_t>(primitive)];
 }
 
-DrawPart upload_piece(gl::EntryPoints& gl, const gl::Caps& caps, const MeshPiece& piece) {
+DrawPart upload_piece(gl::EntryPoints& gl, const gl::Caps& caps, const MeshPiece& piece, const VertexLayout& layout) {
     DrawPart part;
     if (caps.vertex_array_objects || caps.core_profile) {
         part.array = gl::create<gl::Kind::vertex_array>(gl);
@@ -87,14 +133,14 @@ DrawPart upload_piece(gl::EntryPoints& gl, const gl::Caps& caps, const MeshPiece
     }
     part.vertices = gl::create<gl::Kind::buffer>(gl);
     gl.BindBuffer(GL_ARRAY_BUFFER, part.vertices.name());
-    gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(piece.vertices.size() * sizeof(PackedVertex)),
-                  piece.vertices.data(), GL_STATIC_DRAW);
-    part.count = static_cast<int>(piece.vertices.size());
+    gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(piece.vertices.size()), piece.vertices.data(),
+                  GL_STATIC_DRAW);
+    part.count = static_cast<int>(piece.vertex_count);
     if (!piece.indices.empty()) {
         part.indices = gl::create<gl::Kind::buffer>(gl);
         part.count = static_cast<int>(piece.indices.size());
         gl.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, part.indices.name());
-        if (piece.vertices.size() <= 65536) {
+        if (piece.vertex_count <= 65536) {
             const std::vector<std::uint16_t> narrow(piece.indices.begin(), piece.indices.end());
             part.index_type = GL_UNSIGNED_SHORT;
             gl.BufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(narrow.size() * 2), narrow.data(),
@@ -106,73 +152,52 @@ DrawPart upload_piece(gl::EntryPoints& gl, const gl::Caps& caps, const MeshPiece
         }
     }
     if (part.array) {
-        set_vertex_layout(gl);
+        set_vertex_layout(gl, layout);
+        for (int i = 0; i < layout.count; ++i)
+            gl.EnableVertexAttribArray(static_cast<GLuint>(layout.streams[static_cast<std::size_t>(i)].attribute));
         gl.BindVertexArray(0);
     }
     return part;
-}
-
-/// Half the size in each direction, each pixel the mean of up to four.
-Image halved(const Image& image) {
-    Image half{.name = image.name,
-               .width = std::max(image.width / 2, 1),
-               .height = std::max(image.height / 2, 1),
-               .srgb = image.srgb,
-               .rgba = {}};
-    half.rgba.resize(static_cast<std::size_t>(half.width) * half.height * 4);
-    for (int y = 0; y < half.height; ++y) {
-        for (int x = 0; x < half.width; ++x) {
-            const int x0 = std::min(2 * x, image.width - 1), x1 = std::min(2 * x + 1, image.width - 1);
-            const int y0 = std::min(2 * y, image.height - 1), y1 = std::min(2 * y + 1, image.height - 1);
-            for (int c = 0; c < 4; ++c) {
-                const auto at = [&](int px, int py) {
-                    return int{image.rgba[(static_cast<std::size_t>(py) * image.width + px) * 4 + c]};
-                };
-                half.rgba[(static_cast<std::size_t>(y) * half.width + x) * 4 + c] =
-                    static_cast<std::uint8_t>((at(x0, y0) + at(x1, y0) + at(x0, y1) + at(x1, y1) + 2) / 4);
-            }
-        }
-    }
-    return half;
-}
-
-/// Bilinear resampling; between half and the whole size, so that no texel is skipped.
-Image resampled(const Image& image, int width, int height) {
-    Image out{.name = image.name, .width = width, .height = height, .srgb = image.srgb, .rgba = {}};
-    out.rgba.resize(static_cast<std::size_t>(width) * height * 4);
-    const float scale_x = static_cast<float>(image.width) / static_cast<float>(width);
-    const float scale_y = static_cast<float>(image.height) / static_cast<float>(height);
-    for (int y = 0; y < height; ++y) {
-        const float sy = std::max((static_cast<float>(y) + 0.5f) * scale_y - 0.5f, 0.0f);
-        const int y0 = std::min(static_cast<int>(sy), image.height - 1), y1 = std::min(y0 + 1, image.height - 1);
-        for (int x = 0; x < width; ++x) {
-            const float sx = std::max((static_cast<float>(x) + 0.5f) * scale_x - 0.5f, 0.0f);
-            const int x0 = std::min(static_cast<int>(sx), image.width - 1), x1 = std::min(x0 + 1, image.width - 1);
-            for (int c = 0; c < 4; ++c) {
-                const auto at = [&](int px, int py) {
-                    return static_cast<float>(image.rgba[(static_cast<std::size_t>(py) * image.width + px) * 4 + c]);
-                };
-                const float fx = sx - static_cast<float>(x0), fy = sy - static_cast<float>(y0);
-                const float top = at(x0, y0) * (1.0f - fx) + at(x1, y0) * fx;
-                const float bottom = at(x0, y1) * (1.0f - fx) + at(x1, y1) * fx;
-                out.rgba[(static_cast<std::size_t>(y) * width + x) * 4 + c] =
-                    static_cast<std::uint8_t>(std::lround(top * (1.0f - fy) + bottom * fy));
-            }
-        }
-    }
-    return out;
 }
 
 bool is_power_of_two(int x) { return std::has_single_bit(static_cast<unsigned>(x)); }
 
 }  // namespace
 
-std::vector<MeshPiece> packed_pieces(const Mesh& mesh, std::size_t max_vertices) {
+VertexLayout vertex_layout(const MeshStorage& storage) {
+    VertexLayout layout;
+    const auto add = [&](VertexAttribute attribute, int components, StreamFormat format, std::uint32_t type16,
+                         bool normalized) {
+        if (format == StreamFormat::absent) return;
+        VertexStream stream{
+            .attribute = attribute, .type = GL_FLOAT, .components = components, .offset = layout.stride};
+        int component_bytes = 4;
+        if (format != StreamFormat::float32) {
+            stream.type = format == StreamFormat::bits8 ? GL_UNSIGNED_BYTE : type16;
+            stream.normalized = normalized;
+            component_bytes = format == StreamFormat::bits8 ? 1 : 2;
+        }
+        layout.streams[static_cast<std::size_t>(layout.count++)] = stream;
+        layout.stride += (components * component_bytes + 3) / 4 * 4;  // ES wants no more, and drivers like 4
+    };
+    // Positions and UVs come as whole numbers: their scale is folded in on the CPU, in double.
+    add(kPosition, 3, storage.positions, GL_UNSIGNED_SHORT, false);
+    // Normalised: c / 32767 in ES 3.0. ES 2.0 takes (2c + 1) / 65535, half a step off: 0.001 degrees.
+    add(kNormal, 2, storage.normals, GL_SHORT, true);
+    add(kTangent, 2, storage.tangents, GL_SHORT, true);
+    add(kUv, 2, storage.uv, GL_UNSIGNED_SHORT, false);
+    add(kUv1, 2, storage.uv1, GL_UNSIGNED_SHORT, false);
+    add(kColor, 4, storage.colors, GL_UNSIGNED_SHORT, true);
+    return layout;
+}
+
+std::vector<MeshPiece> packed_pieces(const Mesh& mesh, const MeshStorage& storage, std::size_t max_vertices) {
+    const VertexWriter writer(mesh, storage);
     std::vector<MeshPiece> pieces;
     if (mesh.positions.size() <= max_vertices) {
-        MeshPiece whole{.primitive = mesh.primitive, .vertices = {}, .indices = mesh.indices};
-        whole.vertices.reserve(mesh.positions.size());
-        for (std::size_t i = 0; i < mesh.positions.size(); ++i) whole.vertices.push_back(packed_vertex(mesh, i));
+        MeshPiece whole{.primitive = mesh.primitive, .indices = mesh.indices};
+        whole.vertices.reserve(mesh.positions.size() * static_cast<std::size_t>(vertex_layout(storage).stride));
+        for (std::size_t i = 0; i < mesh.positions.size(); ++i) writer.append(whole, i);
         pieces.push_back(std::move(whole));
         return pieces;
     }
@@ -184,97 +209,50 @@ std::vector<MeshPiece> packed_pieces(const Mesh& mesh, std::size_t max_vertices)
     const PrimitiveList list = as_list(mesh.primitive, order);
     std::unordered_map<std::uint32_t, std::uint32_t> local;
     for (std::size_t i = 0; i + list.corners <= list.indices.size(); i += list.corners) {
-        if (pieces.empty() || pieces.back().vertices.size() + list.corners > max_vertices) {
-            pieces.push_back({.primitive = list.primitive, .vertices = {}, .indices = {}});
+        if (pieces.empty() || pieces.back().vertex_count + list.corners > max_vertices) {
+            pieces.push_back({.primitive = list.primitive});
             local.clear();
         }
         MeshPiece& piece = pieces.back();
         for (int corner = 0; corner < list.corners; ++corner) {
             const std::uint32_t index = list.indices[i + corner];
-            const auto [found, added] = local.try_emplace(index, static_cast<std::uint32_t>(piece.vertices.size()));
-            if (added) piece.vertices.push_back(packed_vertex(mesh, index));
+            const auto [found, added] = local.try_emplace(index, static_cast<std::uint32_t>(piece.vertex_count));
+            if (added) writer.append(piece, index);
             piece.indices.push_back(found->second);
         }
     }
     return pieces;
 }
 
-void set_vertex_layout(gl::EntryPoints& gl) {
-    const auto offset = [](std::size_t bytes) { return reinterpret_cast<const void*>(bytes); };
-    constexpr GLsizei stride = sizeof(PackedVertex);
-    gl.VertexAttribPointer(kPosition, 3, GL_FLOAT, GL_FALSE, stride, offset(offsetof(PackedVertex, position)));
-    gl.VertexAttribPointer(kNormal, 4, GL_SHORT, GL_TRUE, stride, offset(offsetof(PackedVertex, normal)));
-    gl.VertexAttribPointer(kTangent, 4, GL_SHORT, GL_TRUE, stride, offset(offsetof(PackedVertex, tangent)));
-    gl.VertexAttribPointer(kUv, 2, GL_FLOAT, GL_FALSE, stride, offset(offsetof(PackedVertex, uv)));
-    gl.VertexAttribPointer(kColor, 4, GL_UNSIGNED_BYTE, GL_TRUE, stride, offset(offsetof(PackedVertex, color)));
-    for (const int attribute : {kPosition, kNormal, kTangent, kUv, kColor}) {
-        gl.EnableVertexAttribArray(static_cast<GLuint>(attribute));
+void set_vertex_layout(gl::EntryPoints& gl, const VertexLayout& layout) {
+    for (int i = 0; i < layout.count; ++i) {
+        const VertexStream& stream = layout.streams[static_cast<std::size_t>(i)];
+        const auto attribute = static_cast<GLuint>(stream.attribute);
+        gl.VertexAttribPointer(attribute, stream.components, stream.type, stream.normalized ? GL_TRUE : GL_FALSE,
+                               layout.stride, reinterpret_cast<const void*>(static_cast<std::size_t>(stream.offset)));
     }
 }
 
-DrawMesh upload_mesh(gl::EntryPoints& gl, const gl::Caps& caps, const Mesh& mesh) {
+DrawMesh upload_mesh(gl::EntryPoints& gl, const gl::Caps& caps, const Mesh& mesh, const MeshStorage& storage) {
     DrawMesh draw;
     draw.box = local_box(mesh);
+    draw.storage = storage;
+    draw.stored = stored_positions(storage);
+    draw.direction_scale = direction_scale(storage);
+    if (!draw.box.empty()) {
+        draw.stored_box = {glm::vec3((glm::dvec3(draw.box.low) - draw.stored.origin) / draw.stored.step),
+                           glm::vec3((glm::dvec3(draw.box.high) - draw.stored.origin) / draw.stored.step)};
+    }
+    draw.layout = vertex_layout(storage);
     draw.has_normals = !mesh.normals.empty();
     draw.has_tangents = !mesh.tangents.empty();
     draw.has_colors = !mesh.colors.empty();
     draw.mode = gl_mode(mesh.primitive);
-    for (const MeshPiece& piece : packed_pieces(mesh, caps.index_uint ? ~std::size_t{0} : 65536)) {
-        draw.parts.push_back(upload_piece(gl, caps, piece));
+    for (const MeshPiece& piece : packed_pieces(mesh, storage, caps.index_uint ? ~std::size_t{0} : 65536)) {
+        draw.parts.push_back(upload_piece(gl, caps, piece, draw.layout));
         draw.mode = gl_mode(piece.primitive);
     }
     return draw;
-}
-
-Image fitted(const Image& image, int max_size, bool power_of_two) {
-    Image out = image;
-    while (out.width > max_size || out.height > max_size) out = halved(out);
-    if (power_of_two && (!is_power_of_two(out.width) || !is_power_of_two(out.height))) {
-        out = resampled(out, static_cast<int>(std::bit_floor(static_cast<unsigned>(out.width))),
-                        static_cast<int>(std::bit_floor(static_cast<unsigned>(out.height))));
-    }
-    return out;
-}
-
-std::uint32_t TextureStore::get(const Scene& scene, const Texture& texture, bool decoded,
-                                std::vector<std::string>& notices) {
-    const auto found = std::ranges::find_if(
-        entries_, [&](const Entry& entry) { return entry.texture == texture && entry.decoded == decoded; });
-    if (found != entries_.end()) return found->object.name();
-
-    const Image& source = scene.images[static_cast<std::size_t>(texture.image)];
-    const bool needs_power_of_two =
-        !caps_.npot_textures && (texture.mipmaps || texture.wrap_u != Wrap::clamp || texture.wrap_v != Wrap::clamp);
-    const Image image = fitted(source, caps_.max_texture_size, needs_power_of_two);
-    if (image.width != source.width || image.height != source.height) {
-        notices.push_back(fmt::format("texture {} is {}x{} texels and was made {}x{} for {}", source.name, source.width,
-                                      source.height, image.width, image.height, caps_.device));
-    }
-    Entry entry{texture, decoded, gl::create<gl::Kind::texture>(gl_)};
-    gl_.ActiveTexture(GL_TEXTURE0);
-    gl_.BindTexture(GL_TEXTURE_2D, entry.object.name());
-    const auto format =
-        gl::transfer_format(decoded ? gl::PixelFormat::srgb8_alpha8 : gl::PixelFormat::rgba8, !caps_.sized_formats);
-    gl_.TexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(format.internal_format), image.width, image.height, 0,
-                   format.format, format.type, image.rgba.data());
-    const auto wrap = [](Wrap mode) {
-        return mode == Wrap::repeat ? GL_REPEAT : mode == Wrap::clamp ? GL_CLAMP_TO_EDGE : GL_MIRRORED_REPEAT;
-    };
-    gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, wrap(texture.wrap_u));
-    gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, wrap(texture.wrap_v));
-    gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, texture.linear ? GL_LINEAR : GL_NEAREST);
-    const int minify = texture.mipmaps ? (texture.linear ? GL_LINEAR_MIPMAP_LINEAR : GL_NEAREST_MIPMAP_NEAREST)
-                                       : (texture.linear ? GL_LINEAR : GL_NEAREST);
-    gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, minify);
-    std::size_t bytes = static_cast<std::size_t>(image.width) * image.height * 4;
-    if (texture.mipmaps) {
-        gl_.GenerateMipmap(GL_TEXTURE_2D);
-        bytes += bytes / 3;
-    }
-    gl::label(gl_, entry.object, source.name.c_str());
-    bytes_ += bytes;
-    entries_.push_back(std::move(entry));
-    return entries_.back().object.name();
 }
 
 }  // namespace halfframe

@@ -1,11 +1,13 @@
 // Brings meshes and textures of a scene to the device.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 #include "engine/frame/scene.h"
+#include "engine/frame/texture_storage.h"
 #include "engine/frame/vertex_layout.h"
 #include "engine/gl/caps.h"
 #include "engine/gl/entry_points.h"
@@ -27,6 +29,11 @@ struct DrawMesh {
     std::vector<DrawPart> parts;
     std::uint32_t mode = 0;  ///< GL_TRIANGLES and so on
     Box box;                 ///< local [m]
+    MeshStorage storage;     ///< what the shaders get
+    StoredPositions stored;  ///< of its positions
+    Box stored_box;          ///< `box` as stored
+    glm::vec4 direction_scale{1.0f};
+    VertexLayout layout;
     bool has_normals = false;
     bool has_tangents = false;
     bool has_colors = false;
@@ -35,37 +42,63 @@ struct DrawMesh {
 /// A mesh, or a piece of one, as the device will have it.
 struct MeshPiece {
     Primitive primitive = Primitive::triangles;
-    std::vector<PackedVertex> vertices;
+    std::size_t vertex_count = 0;
+    std::vector<std::byte> vertices;  ///< interleaved, as vertex_layout() says
     std::vector<std::uint32_t> indices;
 };
 
-/// `mesh` packed, in pieces of at most `max_vertices` vertices (65536 where indices are 16-bit). Strips, fans and loops
-/// that need cutting become lists first. Pure.
-[[nodiscard]] std::vector<MeshPiece> packed_pieces(const Mesh& mesh, std::size_t max_vertices);
+/// `mesh` stored as `storage` says, in pieces of at most `max_vertices` vertices (65536 where indices are 16-bit).
+/// Strips, fans and loops that need cutting become lists first. Pure.
+[[nodiscard]] std::vector<MeshPiece> packed_pieces(const Mesh& mesh, const MeshStorage& storage,
+                                                   std::size_t max_vertices);
 
-[[nodiscard]] DrawMesh upload_mesh(gl::EntryPoints& gl, const gl::Caps& caps, const Mesh& mesh);
+[[nodiscard]] DrawMesh upload_mesh(gl::EntryPoints& gl, const gl::Caps& caps, const Mesh& mesh,
+                                   const MeshStorage& storage);
 
-/// Sets the five attributes of PackedVertex on the buffer bound to GL_ARRAY_BUFFER.
-void set_vertex_layout(gl::EntryPoints& gl);
+/// Points the attributes of `layout` at the buffer bound to GL_ARRAY_BUFFER; switches none on or off.
+void set_vertex_layout(gl::EntryPoints& gl, const VertexLayout& layout);
 
 /// Pixels halved until they fit `max_size`, then, if `power_of_two`, filtered to the nearest power of two not above it.
-[[nodiscard]] Image fitted(const Image& image, int max_size, bool power_of_two);
+[[nodiscard]] Image fitted(const Image& image, int max_size, bool power_of_two, TexelKind kind);
 
 /// The textures of one renderer, each uploaded once for each way it is sampled.
 class TextureStore {
 public:
-    TextureStore(gl::EntryPoints& gl, const gl::Caps& caps) : gl_(gl), caps_(caps) {}
-    std::uint32_t get(const Scene& scene, const Texture& texture, bool decoded, std::vector<std::string>& notices);
+    TextureStore(gl::EntryPoints& gl, const gl::Caps& caps, TextureCompression compression)
+        : gl_(gl), caps_(caps), compression_(compression) {}
+    /// Decides which levels of the scene's images to leave out where the device limits the bytes of all textures.
+    void fit(const Scene& scene, std::vector<std::string>& notices);
+    std::uint32_t get(const Scene& scene, const Texture& texture, const TextureUse& use,
+                      std::vector<std::string>& notices);
+    /// packed_surface_map() of two, sampled as the first.
+    std::uint32_t get_packed(const Scene& scene, const Texture& normals, const Texture& metallic_roughness,
+                             std::vector<std::string>& notices);
     [[nodiscard]] std::size_t bytes() const { return bytes_; }  ///< mip levels included
+    /// What compressing has cost and lost, as a sentence; empty where nothing is compressed.
+    [[nodiscard]] std::string compression() const;
 
 private:
     struct Entry {
         Texture texture;
-        bool decoded;
+        int packed_with;  ///< image of the metallic-roughness map; -1: none
+        TextureUse use;
         gl::Texture object;
     };
+    struct Compressed {
+        int textures = 0;
+        std::size_t bytes_plain = 0, bytes = 0;
+        double worst_rms_codes = 0.0, worst_codes = 0.0;
+    };
+    [[nodiscard]] Image fitted_image(const Scene& scene, const Texture& texture, TexelKind kind,
+                                     std::vector<std::string>& notices) const;
+    std::uint32_t upload(Image image, const Texture& texture, const TextureUse& use, int packed_with);
+    void upload_level(const Image& image, int level, const TextureUse& use, bool one_channel);
+    void upload_compressed(const Image& image, int level, bool with_alpha, bool decoded);
     gl::EntryPoints& gl_;
     const gl::Caps& caps_;
+    TextureCompression compression_;
+    Compressed compressed_;
+    std::vector<int> dropped_levels_;  ///< by image; empty: none
     std::vector<Entry> entries_;
     std::size_t bytes_ = 0;
 };

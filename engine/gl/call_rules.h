@@ -311,6 +311,25 @@ struct ArgumentRule<Call::TexImage2D> {
 };
 
 template <>
+struct ArgumentRule<Call::CompressedTexImage2D> {
+    const Caps& caps;
+    std::string operator()(GLenum, GLint, GLenum internal_format, GLsizei width, GLsizei height, GLint, GLsizei,
+                           const void*) const {
+        const int size = width > height ? width : height;
+        if (size > caps.max_texture_size) return over_limit("size", size, "max_texture_size", caps.max_texture_size);
+        switch (internal_format) {
+            case GL_COMPRESSED_RGB_S3TC_DXT1_EXT:
+            case GL_COMPRESSED_RGBA_S3TC_DXT5_EXT:
+                return caps.s3tc ? "" : "DXT textures need GL_EXT_texture_compression_s3tc";
+            case GL_COMPRESSED_SRGB_S3TC_DXT1_EXT:
+            case GL_COMPRESSED_SRGB_ALPHA_S3TC_DXT5_EXT:
+                return caps.s3tc_srgb ? "" : "sRGB DXT textures need GL_EXT_texture_compression_s3tc_srgb";
+            default: return "compressed format " + hexadecimal(internal_format) + " is none that halfframe uses";
+        }
+    }
+};
+
+template <>
 struct ArgumentRule<Call::RenderbufferStorage> {
     const Caps& caps;
     std::string operator()(GLenum, GLenum internal_format, GLsizei width, GLsizei height) const {

@@ -73,6 +73,10 @@ constexpr auto kEnumerants = std::to_array<Enumerant>({
     HALFFRAME_ENUMERANT(GL_COLOR_ATTACHMENT3),
     HALFFRAME_ENUMERANT(GL_COMPARE_REF_TO_TEXTURE),
     HALFFRAME_ENUMERANT(GL_COMPILE_STATUS),
+    HALFFRAME_ENUMERANT(GL_COMPRESSED_RGBA_S3TC_DXT5_EXT),
+    HALFFRAME_ENUMERANT(GL_COMPRESSED_RGB_S3TC_DXT1_EXT),
+    HALFFRAME_ENUMERANT(GL_COMPRESSED_SRGB_ALPHA_S3TC_DXT5_EXT),
+    HALFFRAME_ENUMERANT(GL_COMPRESSED_SRGB_S3TC_DXT1_EXT),
     HALFFRAME_ENUMERANT(GL_CULL_FACE),
     HALFFRAME_ENUMERANT(GL_CW),
     HALFFRAME_ENUMERANT(GL_DEBUG_SOURCE_APPLICATION_KHR),
@@ -156,10 +160,14 @@ constexpr auto kEnumerants = std::to_array<Enumerant>({
     HALFFRAME_ENUMERANT(GL_QUERY_RESULT),
     HALFFRAME_ENUMERANT(GL_QUERY_RESULT_AVAILABLE),
     HALFFRAME_ENUMERANT(GL_R11F_G11F_B10F),
+    HALFFRAME_ENUMERANT(GL_R8),
     HALFFRAME_ENUMERANT(GL_READ_FRAMEBUFFER),
+    HALFFRAME_ENUMERANT(GL_RED),
     HALFFRAME_ENUMERANT(GL_RENDERBUFFER),
     HALFFRAME_ENUMERANT(GL_RENDERER),
     HALFFRAME_ENUMERANT(GL_REPEAT),
+    HALFFRAME_ENUMERANT(GL_RG),
+    HALFFRAME_ENUMERANT(GL_RG8),
     HALFFRAME_ENUMERANT(GL_RGB),
     HALFFRAME_ENUMERANT(GL_RGB10_A2),
     HALFFRAME_ENUMERANT(GL_RGBA),
@@ -383,6 +391,7 @@ struct Line {
         switch (call) {
             case Call::BufferData:
             case Call::BufferSubData: return block(data, static_cast<std::uint64_t>(integer("size")));
+            case Call::CompressedTexImage2D: return block(data, static_cast<std::uint64_t>(integer("image_size")));
             case Call::TexImage2D: return block(data, pixel_bytes());
             case Call::ReadPixels: return fmt::format("{{\"bytes\":{}}}", pixel_bytes());
             // The driver's own format: its bytes are not ours to promise.

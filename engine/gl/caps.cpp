@@ -132,6 +132,9 @@ void read_abilities(EntryPoints& gl, Caps& caps, const Version& version) {
     caps.debug_labels = loaded(Call::ObjectLabel) &&
                         (has("GL_KHR_debug") || desktop_since(43) || (!version.desktop && version.number >= 32));
     caps.anisotropy = has("GL_EXT_texture_filter_anisotropic") || has("GL_ARB_texture_filter_anisotropic");
+    // Desktop drivers and ES ones write the name alike.
+    caps.s3tc = has("GL_EXT_texture_compression_s3tc") && loaded(Call::CompressedTexImage2D);
+    caps.s3tc_srgb = caps.s3tc && (has("GL_EXT_texture_compression_s3tc_srgb") || has("GL_EXT_texture_sRGB"));
     caps.discard_framebuffer = loaded(Call::InvalidateFramebuffer) && (es3 || desktop_since(43));
 }
 
@@ -273,6 +276,10 @@ void mask_limits(Caps& caps, const Mask& mask, const DeviceProfile& profile) {
     lower(caps.max_draw_buffers, profile.max_draw_buffers);
     lower(caps.max_samples, profile.max_samples);
     lower(caps.max_texture_3d_size, profile.max_texture_3d_size);
+    if (profile.max_texture_bytes)
+        caps.max_texture_bytes =
+            std::min(caps.max_texture_bytes.value_or(*profile.max_texture_bytes), *profile.max_texture_bytes);
+    caps.prefers_s3tc = profile.prefers_s3tc.value_or(caps.prefers_s3tc);
 }
 
 void mask_abilities(Caps& caps, const Mask& mask) {
@@ -287,6 +294,8 @@ void mask_abilities(Caps& caps, const Mask& mask) {
     caps.program_binary = mask.keeps(caps.program_binary, "GL_OES_get_program_binary");
     caps.anisotropy = caps.anisotropy && (mask.grants("GL_EXT_texture_filter_anisotropic") ||
                                           mask.grants("GL_ARB_texture_filter_anisotropic"));
+    caps.s3tc = caps.s3tc && mask.grants("GL_EXT_texture_compression_s3tc");
+    caps.s3tc_srgb = caps.s3tc_srgb && caps.s3tc;
     caps.sized_formats = caps.sized_formats && es3;
     caps.discard_framebuffer = caps.discard_framebuffer && es3;
     // fence_sync, timer_query, samples_passed and debug_labels stay as the machine has them: they measure and label the

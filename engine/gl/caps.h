@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -47,7 +48,8 @@ struct Caps {
     int max_combined_samplers = 8;
     int max_draw_buffers = 1;
     int max_samples = 0;
-    int max_texture_3d_size = 0;  ///< 0: no 3D textures
+    int max_texture_3d_size = 0;                   ///< 0: no 3D textures
+    std::optional<std::size_t> max_texture_bytes;  ///< of all textures of a scene together; empty: no limit
 
     // Abilities: true when core in es_version or brought by a named extension.
     bool explicit_lod = false;          ///< textureLod in fragments: ES 3.0 or EXT_shader_texture_lod
@@ -64,6 +66,9 @@ struct Caps {
     bool samples_passed = false;  ///< exact GL_SAMPLES_PASSED: desktop only
     bool debug_labels = false;    ///< KHR_debug
     bool anisotropy = false;
+    bool s3tc = false;                 ///< DXT1 and DXT5: EXT_texture_compression_s3tc
+    bool s3tc_srgb = false;            ///< the same, decoded on fetch
+    bool prefers_s3tc = false;         ///< a device profile asks for compressed colours
     bool discard_framebuffer = false;  ///< glInvalidateFramebuffer: ES 3.0
 
     /// Which formats really render: each was drawn to and read back once when the caps were read.
@@ -98,6 +103,8 @@ struct DeviceProfile {
     std::optional<int> max_draw_buffers;
     std::optional<int> max_samples;
     std::optional<int> max_texture_3d_size;
+    std::optional<std::size_t> max_texture_bytes;  ///< of all textures of a scene together, mip levels included
+    std::optional<bool> prefers_s3tc;              ///< colours are compressed where the machine can
 };
 
 /// Reads everything once from the current context, and draws to each format to see whether it really renders.

@@ -125,6 +125,14 @@ struct Accounting<Call::TexImage2D> {
 };
 
 template <>
+struct Accounting<Call::CompressedTexImage2D> {
+    Accounts to;
+    void operator()(GLenum, GLint, GLenum, GLsizei, GLsizei, GLint, GLsizei image_size, const void* data) const {
+        if (data != nullptr) to.pass.bytes_uploaded += static_cast<std::uint64_t>(image_size);
+    }
+};
+
+template <>
 struct Accounting<Call::ReadPixels> {
     Accounts to;
     void operator()(GLint, GLint, GLsizei width, GLsizei height, GLenum format, GLenum type, void*) const {

@@ -17,6 +17,7 @@ HALFFRAME_GL(es20, void, ClearColor, (GLfloat red, GLfloat green, GLfloat blue, 
 HALFFRAME_GL(es20, void, ClearDepthf, (GLfloat depth), (depth))
 HALFFRAME_GL(es20, void, ColorMask, (GLboolean red, GLboolean green, GLboolean blue, GLboolean alpha), (red, green, blue, alpha))
 HALFFRAME_GL(es20, void, CompileShader, (GLuint shader), (shader))
+HALFFRAME_GL(es20, void, CompressedTexImage2D, (GLenum target, GLint level, GLenum internal_format, GLsizei width, GLsizei height, GLint border, GLsizei image_size, const void* data), (target, level, internal_format, width, height, border, image_size, data))
 HALFFRAME_GL(es20, GLuint, CreateProgram, (), ())
 HALFFRAME_GL(es20, GLuint, CreateShader, (GLenum type), (type))
 HALFFRAME_GL(es20, void, CullFace, (GLenum mode), (mode))

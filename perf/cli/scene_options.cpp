@@ -103,6 +103,17 @@ std::optional<gl::PixelFormat> parse_storage(const std::string& text) {
     return std::nullopt;
 }
 
+VertexPrecision parse_vertices(const std::string& text) {
+    if (text != "half" && text != "full") throw Error(Fault::usage, unknown("vertices", text, {"half", "full"}));
+    return text == "half" ? VertexPrecision::half : VertexPrecision::full;
+}
+
+std::optional<TextureCompression> parse_textures(const std::string& text) {
+    if (text == "auto") return std::nullopt;
+    if (text != "none" && text != "dxt") throw Error(Fault::usage, unknown("textures", text, {"auto", "none", "dxt"}));
+    return text == "dxt" ? TextureCompression::dxt : TextureCompression::none;
+}
+
 Wishes parse_wishes(const SceneOptions& options) {
     Wishes wishes;
     for (const std::string& tier : options.tiers) {
@@ -110,6 +121,8 @@ Wishes parse_wishes(const SceneOptions& options) {
     }
     wishes.arithmetic = parse_arithmetic(options.arithmetic);
     wishes.storage = parse_storage(options.storage);
+    wishes.vertices = parse_vertices(options.vertices);
+    wishes.textures = parse_textures(options.textures);
     return wishes;
 }
 
@@ -178,6 +191,17 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
             "Format of scene_color: rgba32f, rgba16f, r11g11b10f, rgb10_a2, rgba8, or auto: the highest that the "
             "tier and the device allow")
         ->type_name("FORMAT")
+        ->capture_default_str();
+    command
+        .add_option("--vertices", options.vertices,
+                    "Bits of vertices: half (16 and 8, where the error stays below its limit) or full (32)")
+        ->type_name("NAME")
+        ->capture_default_str();
+    command
+        .add_option("--textures", options.textures,
+                    "Compression of colour textures: none, dxt (DXT1 and DXT5), or auto: what the device profile says, "
+                    "else none")
+        ->type_name("NAME")
         ->capture_default_str();
     command
         .add_option("--environment", options.environment,
@@ -290,6 +314,8 @@ std::vector<std::string> option_words(const SceneOptions& options) {
     }
     add("--arithmetic", options.arithmetic, defaults.arithmetic);
     add("--storage", options.storage, defaults.storage);
+    add("--vertices", options.vertices, defaults.vertices);
+    add("--textures", options.textures, defaults.textures);
     add("--environment", options.environment, "");
     add("--device", options.device.device, defaults.device.device);
     add("--context", options.device.context, defaults.device.context);

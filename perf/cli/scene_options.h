@@ -22,6 +22,8 @@ struct SceneOptions {
     std::vector<std::string> tiers;
     std::string arithmetic = "auto";
     std::string storage = "auto";
+    std::string vertices = "half";
+    std::string textures = "auto";
     std::string environment;  ///< empty: the scene's own
     std::string cache;        ///< empty: the user's cache folder
     std::string camera;

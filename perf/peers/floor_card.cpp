@@ -41,6 +41,7 @@ private:
         gl::Program* program;
         int clip_from_local;
         int base_color;
+        int uv_range;
         int surface;
         std::vector<std::pair<int, std::uint32_t>> textures;  ///< unit, name
     };
@@ -67,7 +68,8 @@ void FloorWork::add_draw(Renderer& renderer, const EffectCard& card, int index, 
     const bool decoded = renderer.tier_of("floor") != Tier::low && renderer.caps().srgb_textures;
     std::vector<std::string_view> defines;
     std::vector<const char*> samplers;
-    Draw draw{.program = nullptr, .clip_from_local = -1, .base_color = -1, .surface = index, .textures = {}};
+    Draw draw{
+        .program = nullptr, .clip_from_local = -1, .base_color = -1, .uv_range = -1, .surface = index, .textures = {}};
     for (const Map& map :
          {Map{material.base_color_texture, "BASE_COLOR_MAP", "base_color_map", true},
           Map{material.metallic_roughness_texture, "METALLIC_ROUGHNESS_MAP", "metallic_roughness_map", false},
@@ -75,13 +77,16 @@ void FloorWork::add_draw(Renderer& renderer, const EffectCard& card, int index, 
           Map{material.emissive_texture, "EMISSIVE_MAP", "emissive_map", true}}) {
         if (!fetches || !map.texture) continue;
         defines.push_back(map.define);
-        draw.textures.emplace_back(static_cast<int>(samplers.size()),
-                                   renderer.texture(map.texture, map.color && decoded));
+        draw.textures.emplace_back(
+            static_cast<int>(samplers.size()),
+            renderer.texture(map.texture, {.decoded = map.color && decoded,
+                                           .kind = map.color ? TexelKind::color : TexelKind::data}));
         samplers.push_back(map.sampler);
     }
     draw.program = &renderer.program(card, 0, defines);
     draw.clip_from_local = draw.program->uniform("clip_from_local");
     draw.base_color = draw.program->uniform("base_color");
+    draw.uv_range = draw.program->uniform_if_used("uv_range");
     renderer.use(*draw.program);
     for (std::size_t unit = 0; unit < samplers.size(); ++unit) {
         renderer.gl().Uniform1i(draw.program->uniform(samplers[unit]), static_cast<int>(unit));
@@ -103,7 +108,9 @@ void FloorWork::draw(Renderer& renderer, const View& view, int) {
         renderer.set_cull(!material.double_sided);
         for (const auto& [unit, texture] : draw.textures) renderer.bind_texture(unit, texture);
         renderer.gl().Uniform4fv(draw.base_color, 1, &material.base_color.x);
-        renderer.gl().UniformMatrix4fv(draw.clip_from_local, 1, GL_FALSE, &clip[0][0]);
+        const glm::mat4 stored = from_stored(clip, mesh.storage);
+        renderer.gl().UniformMatrix4fv(draw.clip_from_local, 1, GL_FALSE, &stored[0][0]);
+        if (draw.uv_range >= 0) renderer.gl().Uniform4fv(draw.uv_range, 1, &mesh.storage.uv_range.x);
         renderer.draw_mesh(mesh);
     }
 }

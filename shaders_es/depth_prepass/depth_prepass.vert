@@ -1,5 +1,5 @@
 // Depth alone, from the same expression as surface.vert so that both give the same depths.
-VERTEX_IN vec3 position;
+VERTEX_IN vec3 position;  // local, as stored
 uniform highp mat4 clip_from_local;
 
 invariant gl_Position;

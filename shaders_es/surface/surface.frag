@@ -37,7 +37,9 @@ uniform HALF sampler2D emissive_map;
 uniform HALF vec4 factors;
 uniform HALF vec4 ambient;  // rgb
 uniform HALF vec4 parallel_eye;  // orthographic: xyz direction to the eye, w 0; else 0, 0, 0, 1
-#ifdef METALLIC_ROUGHNESS_MAP
+#if defined(PACKED_MAPS) && defined(NORMAL_MAP) && defined(METALLIC_ROUGHNESS_MAP)
+#define ONE_FETCH  // normal_map: rg normal x and y, b metallic, a roughness; texture_storage.h packs it
+#elif defined(METALLIC_ROUGHNESS_MAP)
 uniform HALF sampler2D metallic_roughness_map;
 #endif
 #ifdef NORMAL_MAP
@@ -93,8 +95,15 @@ void main() {
     vec3 light = base.rgb + emission;
 #else
     float metallic = factors.x;
+#ifdef ONE_FETCH
+    vec4 packed_map = sample_2d(normal_map, vertex_uv);
+#endif
 #ifdef METALLIC_ROUGHNESS_MAP
+#ifdef ONE_FETCH
+    vec2 packed_factors = packed_map.ba;
+#else
     vec2 packed_factors = sample_2d(metallic_roughness_map, vertex_uv).bg;
+#endif
     metallic *= packed_factors.x;
     float power = power_from_roughness(factors.y * packed_factors.y);
     float smoothness = smoothness_from_power(power);
@@ -110,7 +119,12 @@ void main() {
 #ifdef NORMAL_MAP
     FULL vec3 t = normalize(vertex_tangent.xyz - n * dot(n, vertex_tangent.xyz) + vec3(0.0, 0.0, 1e-4));
     FULL vec3 b = cross(n, t) * vertex_tangent.w;
+#ifdef ONE_FETCH
+    FULL vec3 bump = vec3(packed_map.xy * 2.0 - 1.0, 0.0);
+    bump.z = sqrt(max(1.0 - dot(bump.xy, bump.xy), 0.0));
+#else
     FULL vec3 bump = sample_2d(normal_map, vertex_uv).xyz * 2.0 - 1.0;
+#endif
     bump.xy *= factors.z;
     n = normalize(t * bump.x + b * bump.y + n * max(bump.z, 0.01));
 #endif

@@ -4,16 +4,21 @@
 #include "surface/surface_limits.h"
 #include "surface/surface_lights.glsl"
 #include "common/maths.glsl"
+#include "common/vertex_decode.glsl"
 
-VERTEX_IN vec3 position;  // [m] local
-VERTEX_IN vec4 normal;    // xyz unit
-VERTEX_IN vec4 tangent;   // xyz unit, w handedness
-VERTEX_IN vec2 uv;
+VERTEX_IN vec3 position;  // local, as stored
+VERTEX_IN vec2 normal;    // octahedral
+VERTEX_IN vec2 tangent;   // octahedral, with its handedness
+VERTEX_IN vec2 uv;        // steps of uv_range
 VERTEX_IN vec4 color;     // linear
 
 uniform highp mat4 clip_from_local;
 uniform highp mat4 eye_from_local;     // world axes, origin at the eye
 uniform highp mat4 normal_from_local;  // inverse transpose, world axes
+uniform highp vec4 uv_range;           // xy scale, zw offset
+#ifdef NORMAL_MAP
+uniform highp vec4 direction_scale;    // xyz: undoes the scale of stored positions, which is in eye_from_local
+#endif
 uniform highp vec4 toward_eye;         // xyz: direction to the eye if orthographic; w: scale of lengths, see surface_work.cpp
 
 VERTEX_OUT FULL vec3 vertex_to_eye;  // FULL: positions in metres need more than 11 bits
@@ -69,9 +74,9 @@ void main() {
 #endif
     vec3 at = (eye_from_local * vec4(position, 1.0)).xyz;
     vertex_to_eye = -at * toward_eye.w;
-    vertex_uv = uv;
+    vertex_uv = uv_from_steps(uv, uv_range);
 #ifndef UNLIT
-    vec3 n = normalize((normal_from_local * vec4(normal.xyz, 0.0)).xyz);
+    vec3 n = normalize((normal_from_local * vec4(direction_from_octahedral(normal), 0.0)).xyz);
     vertex_normal = n;
 #if defined(DOUBLE_SIDED) && defined(TIER_LOW)
     vec3 to_eye = dot(toward_eye.xyz, toward_eye.xyz) > 0.5 ? toward_eye.xyz : -at;
@@ -83,7 +88,8 @@ void main() {
     //@insert surface.vertex
 #endif
 #ifdef NORMAL_MAP
-    vertex_tangent = vec4(normalize((eye_from_local * vec4(tangent.xyz, 0.0)).xyz), tangent.w);
+    vec4 t = tangent_from_octahedral(tangent);
+    vertex_tangent = vec4(normalize((eye_from_local * vec4(t.xyz * direction_scale.xyz, 0.0)).xyz), t.w);
 #endif
 #ifdef VERTEX_COLOR
     vertex_color = color;

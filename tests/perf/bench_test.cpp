@@ -27,5 +27,18 @@ TEST(LightBench, AnUnknownTierIsRefused) {
     EXPECT_NE(result.err.find("--tier"), std::string::npos) << result.err;
 }
 
+TEST(DrawBench, PrintsARatioForEveryCase) {
+    if (run_child(HALFFRAME_BINARY_DIR "/halfframe", {"info", "--json"}, {}).code == 4) {
+        GTEST_SKIP() << "no graphics context here";
+    }
+    const ChildResult result =
+        run_child(HALFFRAME_BINARY_DIR "/halfframe_draw_bench", {"--rounds", "1", "--objects", "50"}, {});
+    ASSERT_EQ(result.code, 0) << result.err;
+    for (const char* word : {"8 materials, 16 meshes", "64 materials, 256 meshes", "2 lamps", "bare loop", "ratio"}) {
+        EXPECT_NE(result.out.find(word), std::string::npos) << word << "\n" << result.out;
+    }
+    EXPECT_EQ(result.out.find("nan"), std::string::npos) << result.out;
+}
+
 }  // namespace
 }  // namespace halfframe::test

@@ -73,11 +73,13 @@ public:
         renderer.set_blend(Blend::none);
         renderer.set_depth(true, true, GL_LESS);
         renderer.use(program_);
+        const ViewSpace space = view_space(view);
         for (const int index : surfaces_) {
             const Surface& surface = renderer.scene().surfaces[static_cast<std::size_t>(index)];
             const DrawMesh& mesh = renderer.mesh(surface.mesh);
-            const glm::mat4 matrix = clip_from_local(view, surface.world_from_local);
-            if (outside_view(mesh.box, matrix)) continue;
+            const glm::mat4 matrix =
+                clip_from_stored(space, eye_from_stored(space, surface.world_from_local, mesh.stored));
+            if (outside_view(mesh.stored_box, matrix)) continue;
             renderer.set_cull(!renderer.scene().materials[static_cast<std::size_t>(surface.material)].double_sided);
             renderer.gl().UniformMatrix4fv(clip_from_local_, 1, GL_FALSE, &matrix[0][0]);
             renderer.draw_mesh(mesh);

@@ -92,7 +92,7 @@ ShadowBlobs::ShadowBlobs(Renderer& renderer) : grounds_(grounds_of(renderer.scen
     Mesh square;
     square.positions = {{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 1.0f}, {1.0f, 0.0f, 1.0f}, {1.0f, 0.0f, 0.0f}};
     square.indices = {0, 1, 2, 0, 2, 3};  // its front is up: from below there is ground in the way
-    square_ = upload_mesh(renderer.gl(), renderer.caps(), square);
+    square_ = upload_mesh(renderer.gl(), renderer.caps(), square, full_storage(square));
     const Scene& scene = renderer.scene();
     for (std::size_t i = 0; i < scene.surfaces.size(); ++i) {
         if (scene.surfaces[i].dynamic) objects_.push_back(static_cast<int>(i));

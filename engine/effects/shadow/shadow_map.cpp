@@ -44,7 +44,8 @@ int ShadowMap::variant_of(Renderer& renderer, const std::vector<std::string_view
     renderer.use(program);
     if (const int map = program.uniform_if_used("base_color_map"); map >= 0)
         renderer.gl().Uniform1i(map, kBaseColorUnit);
-    variants_.push_back({&program, program.uniform("clip_from_local"), program.uniform_if_used("mask")});
+    variants_.push_back({&program, program.uniform("clip_from_local"), program.uniform_if_used("mask"),
+                         program.uniform_if_used("uv_range")});
     program.expect_all_uniforms_claimed();
     return static_cast<int>(variants_.size()) - 1;
 }
@@ -62,7 +63,8 @@ void ShadowMap::add_caster(Renderer& renderer, int body) {
         if (material.base_color_texture) {
             defines.push_back("BASE_COLOR_MAP");
             // Decoded as surface has it, so that the device holds it once.
-            caster.texture = renderer.texture(material.base_color_texture, renderer.caps().srgb_textures);
+            caster.texture =
+                renderer.texture(material.base_color_texture, base_color_use(material, renderer.caps().srgb_textures));
         }
     }
     caster.variant = variant_of(renderer, defines);
@@ -106,10 +108,13 @@ void ShadowMap::draw_casters(Renderer& renderer) {
         if (outside_view(body.local, matrix)) continue;
         const Variant& variant = variants_[static_cast<std::size_t>(caster.variant)];
         renderer.use(*variant.program);
-        gl.UniformMatrix4fv(variant.clip_from_local, 1, GL_FALSE, &matrix[0][0]);
+        const DrawMesh& mesh = renderer.mesh(surface_of(renderer, body).mesh);
+        const glm::mat4 stored = from_stored(matrix, mesh.storage);
+        gl.UniformMatrix4fv(variant.clip_from_local, 1, GL_FALSE, &stored[0][0]);
+        if (variant.uv_range >= 0) gl.Uniform4fv(variant.uv_range, 1, &mesh.storage.uv_range.x);
         if (variant.mask >= 0) gl.Uniform4fv(variant.mask, 1, &caster.mask.x);
         if (caster.texture != 0) renderer.bind_texture(kBaseColorUnit, caster.texture);
-        renderer.draw_mesh(renderer.mesh(surface_of(renderer, body).mesh));
+        renderer.draw_mesh(mesh);
     }
     gl.PolygonOffset(0.0f, 0.0f);
     gl.Disable(GL_POLYGON_OFFSET_FILL);

@@ -22,7 +22,7 @@ private:
     /// A program of casters and where its uniforms are.
     struct Variant {
         gl::Program* program = nullptr;
-        int clip_from_local = -1, mask = -1;
+        int clip_from_local = -1, mask = -1, uv_range = -1;
     };
     struct Caster {
         int body = 0;

@@ -1,10 +1,13 @@
 // Draws the surfaces of a scene: one list of draws made while preparing, walked twice a frame.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
+#include <string_view>
 #include <vector>
 
+#include "engine/frame/camera_space.h"
 #include "engine/frame/effect_card.h"
 #include "engine/frame/renderer.h"
 #include "shaders_es/surface/surface_limits.h"
@@ -20,14 +23,26 @@ public:
     SurfaceWork(Renderer& renderer, const EffectCard& card, SurfacePart part);
     void draw(Renderer& renderer, const View& view, int phase) override;
 
+    /// Where a draw stands in a frame: smaller keys first.
+    struct Order {
+        std::uint64_t key = 0;
+        std::uint32_t draw = 0;
+    };
+
 private:
     /// A program and where its uniforms are; -1: this variant does not use it.
     struct Variant {
         gl::Program* program = nullptr;
+        std::vector<std::string_view> defines;
         bool maps_roughness = false;
         int clip_from_local = -1, eye_from_local = -1, normal_from_local = -1, toward_eye = -1;
+        int uv_range = -1, direction_scale = -1;
         int base_color = -1, emissive = -1, factors = -1, ambient = -1, parallel_eye = -1;
         int sun_direction = -1, sun_color = -1;
+        // What the program was last told, since it became current.
+        glm::vec4 told_uv_range{0.0f}, told_direction_scale{0.0f}, told_toward_eye{0.0f};
+        int told_light_set = -1;
+        float told_light_scale = 0.0f;
         int light_position = -1, light_color = -1, light_direction = -1, light_size = -1, light_count = -1;
     };
     struct TextureBinding {
@@ -37,35 +52,51 @@ private:
     struct Draw {
         int variant = 0;
         int surface = 0;
+        int mesh = 0;
         int material = 0;
+        int light_set = 0;
+        std::uint32_t state =
+            0;  ///< rank among the states that draws_ stands by: equal ones need no change between them
         bool double_sided = false;
+        // What follows from the place of the surface, until it moves.
+        glm::mat4 placed_at{0.0f};
+        glm::mat4 normal_from_local{1.0f};
+        glm::vec3 centre{0.0f};  ///< of its box [m], world
         std::vector<TextureBinding> textures;
+    };
+    /// The lights of one object or many, and what their lengths are multiplied with in this frame.
+    struct LightSet {
         std::vector<int> lights;
+        float scale = 1.0f;
     };
 
     [[nodiscard]] std::vector<std::string_view> defines_of(const Renderer& renderer, const Surface& surface,
                                                            std::span<const int> lights) const;
     int variant_of(Renderer& renderer, const std::vector<std::string_view>& defines);
     void add_draw(Renderer& renderer, int surface);
-    void sort_by_distance(const Renderer& renderer, const View& view);
-    void set_variant(Renderer& renderer, const View& view, const Variant& variant);
+    void rank_states();
+    void place(const Renderer& renderer, Draw& draw);
+    void sort(const View& view);
+    void set_variant(Renderer& renderer, const View& view, Variant& variant);
     void set_material(Renderer& renderer, const View& view, const Variant& variant, const Draw& draw);
-    void set_matrices(Renderer& renderer, const View& view, const Variant& variant, const Draw& draw,
-                      const glm::mat4& clip);
+    void set_matrices(Renderer& renderer, const View& view, Variant& variant, const Draw& draw, const DrawMesh& mesh,
+                      const glm::dmat4& eye, const glm::mat4& clip, float scale);
     [[nodiscard]] float fragment_length_scale(const Renderer& renderer, const View& view, const Draw& draw) const;
-    void set_lights(Renderer& renderer, const View& view, const Variant& variant, const Draw& draw);
-    void draw_one(Renderer& renderer, const View& view, const Draw& draw);
+    [[nodiscard]] float length_scale_of(const Renderer& renderer, const View& view, const LightSet& set) const;
+    int light_set_of(std::vector<int> lights);
+    void set_lights(Renderer& renderer, const View& view, Variant& variant, const Draw& draw, float scale);
+    void draw_one(Renderer& renderer, const View& view, Draw& draw);
 
     const EffectCard& card_;
     SurfacePart part_;
     const Light* sun_ = nullptr;
     std::vector<Variant> variants_;
+    std::vector<LightSet> light_sets_;
     std::vector<Draw> draws_;
-    struct Order {
-        double distance;
-        int draw;
-    };
-    std::vector<Order> order_;  ///< of draws_ in this frame; sized while preparing
+    std::vector<Order> order_;     ///< of draws_ in this frame; sized while preparing
+    std::vector<Order> sorting_;   ///< as large: what sorting needs
+    bool depth_is_there_ = false;  ///< a prepass has drawn it: near before far saves nothing
+    ViewSpace space_;              ///< of the frame being drawn
     int current_variant_ = -1;
     int current_material_ = -1;
 };

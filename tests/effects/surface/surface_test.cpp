@@ -1,6 +1,8 @@
 // surface against known answers, computed here in double from the papers' formulas and sharing nothing with the shader.
 #include "engine/effects/surface/surface.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -231,8 +233,9 @@ TEST_F(Surface, SaysWhichLightsAreLeftOut) {
         scene.lights.push_back({.kind = LightKind::point, .position = {0.0f, 0.0f, 1.0f}, .range_m = 5.0f});
     Renderer renderer(gl(), caps());
     renderer.prepare(scene, plan_frame(scene, square_view(), {}, caps(), all_effects()));
-    ASSERT_EQ(renderer.notices().size(), 1u);
-    EXPECT_NE(renderer.notices()[0].find("2 weakest"), std::string::npos) << renderer.notices()[0];
+    const auto notices = renderer.notices();  // the square is so wide that its positions keep 32 bits: another notice
+    const auto tells = [](const std::string& sentence) { return sentence.find("2 weakest") != std::string::npos; };
+    EXPECT_EQ(std::ranges::count_if(notices, tells), 1);
 }
 
 }  // namespace

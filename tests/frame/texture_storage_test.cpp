@@ -1,0 +1,176 @@
+// Mip levels in linear light, masks that keep their share, maps packed into one, DXT, and a budget of bytes.
+#include "engine/frame/texture_storage.h"
+
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+namespace halfframe {
+namespace {
+
+Image image_of(int width, int height, auto texel) {
+    Image image{.name = "image", .width = width, .height = height, .srgb = true, .rgba = {}};
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            const std::array<int, 4> values = texel(x, y);
+            for (const int value : values) image.rgba.push_back(static_cast<std::uint8_t>(value));
+        }
+    }
+    return image;
+}
+
+TEST(TextureStorage, LevelsAreMeansOfLight) {
+    const Image checker = image_of(8, 8, [](int x, int y) {
+        const int v = (x + y) % 2 * 255;
+        return std::array{v, v, v, v};
+    });
+    const auto levels = mip_chain(checker, TexelKind::color, std::nullopt);
+    ASSERT_EQ(levels.size(), 4u);
+    EXPECT_EQ(levels[1].rgba[0], 188) << "half of white's light; a mean of codes would be 128";
+    EXPECT_EQ(levels[1].rgba[3], 128) << "alpha is linear";
+    EXPECT_EQ(levels[3].rgba[0], 188);
+    EXPECT_EQ(mip_chain(checker, TexelKind::data, std::nullopt)[1].rgba[0], 128);
+}
+
+TEST(TextureStorage, OddSizesLoseNoTexel) {
+    const Image bar = image_of(5, 3, [](int x, int) { return std::array{x == 4 ? 255 : 0, 0, 0, 255}; });
+    const auto levels = mip_chain(bar, TexelKind::data, std::nullopt);
+    ASSERT_EQ(levels.size(), 3u);
+    EXPECT_EQ(levels[1].width, 2);
+    EXPECT_EQ(levels[1].height, 1);
+    EXPECT_EQ(levels[1].rgba[0], 0);
+    EXPECT_EQ(levels[1].rgba[4], 102) << "the last of 2.5 texels: 255 / 2.5";
+    EXPECT_EQ(levels[2].rgba[0], 51) << "a fifth of 255";
+}
+
+/// Leaves: discs of alpha that thin out when averaged.
+Image leaves() {
+    return image_of(64, 64, [](int x, int y) {
+        const double dx = x % 8 - 3.5, dy = y % 8 - 3.5;
+        return std::array{30, 90, 20, static_cast<int>(std::clamp(300.0 - 90.0 * std::hypot(dx, dy), 0.0, 255.0))};
+    });
+}
+
+TEST(TextureStorage, MasksKeepTheirShare) {
+    constexpr float kCutoff = 0.5f;
+    const double wanted = alpha_coverage(leaves(), kCutoff);
+    const auto kept = mip_chain(leaves(), TexelKind::color, kCutoff);
+    const auto plain = mip_chain(leaves(), TexelKind::color, std::nullopt);
+    double worst_plain = 0.0;
+    for (std::size_t level = 1; level < kept.size(); ++level) {
+        // Texels that are alike pass together. The discs repeat every 8 texels: at level 1 four kinds are left of 16,
+        // so that the share goes in quarters at worst; from level 2 on all are alike, and 0 or 1 is all there is.
+        const double best = level < 2 ? 0.125 : std::max(wanted, 1.0 - wanted);
+        EXPECT_LE(std::abs(alpha_coverage(kept[level], kCutoff) - wanted), best) << "level " << level;
+        worst_plain = std::max(worst_plain, std::abs(alpha_coverage(plain[level], kCutoff) - wanted));
+    }
+    EXPECT_GT(worst_plain, 0.12) << "without scaling the share drifts, else this test could not fail";
+}
+
+double degrees_between(const std::array<double, 3>& a, const std::array<double, 3>& b) {
+    double dot = 0.0, aa = 0.0, bb = 0.0;
+    for (std::size_t c = 0; c < 3; ++c) {
+        dot += a[c] * b[c];
+        aa += a[c] * a[c];
+        bb += b[c] * b[c];
+    }
+    return std::acos(std::min(dot / std::sqrt(aa * bb), 1.0)) * 57.29578;
+}
+
+TEST(TextureStorage, PackingKeepsNormalsAndFactors) {
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> unit;
+    // Up to 60 degrees off the surface, as steep as normal maps go.
+    const Image normals = image_of(64, 64, [&](int, int) {
+        const double tilt = unit(random) * 1.0472, turn = unit(random) * 6.2832;
+        const auto code = [](double v) { return static_cast<int>(std::lround((v * 0.5 + 0.5) * 255.0)); };
+        return std::array{code(std::sin(tilt) * std::cos(turn)), code(std::sin(tilt) * std::sin(turn)),
+                          code(std::cos(tilt)), 255};
+    });
+    const Image factors = image_of(64, 64, [](int x, int y) { return std::array{7, 4 * x, 4 * y, 255}; });
+    const Image packed = packed_surface_map(normals, factors);
+    double worst = 0.0;
+    for (std::size_t i = 0; i < packed.rgba.size(); i += 4) {
+        EXPECT_EQ(packed.rgba[i + 2], factors.rgba[i + 2]);
+        EXPECT_EQ(packed.rgba[i + 3], factors.rgba[i + 1]);
+        std::array<double, 3> exact{}, back{};
+        for (std::size_t c = 0; c < 3; ++c) exact[c] = normals.rgba[i + c] / 127.5 - 1.0;
+        for (std::size_t c = 0; c < 2; ++c) back[c] = packed.rgba[i + c] / 127.5 - 1.0;
+        back[2] = std::sqrt(std::max(1.0 - back[0] * back[0] - back[1] * back[1], 0.0));
+        worst = std::max(worst, degrees_between(exact, back));
+    }
+    // Half a step of 1/255 in x and in y is 0.32 degrees along the surface; at 60 degrees the missing z doubles it.
+    EXPECT_LE(worst, 0.65);
+    EXPECT_GT(worst, 0.2);
+}
+
+TEST(TextureStorage, LevelsOfPackedNormalsPointTheMeanWay) {
+    // Two slopes that face each other: their mean stands upright, not short.
+    const Image packed = image_of(2, 1, [](int x, int) { return std::array{x == 0 ? 217 : 38, 128, 0, 64}; });
+    const auto levels = mip_chain(packed, TexelKind::packed_surface, std::nullopt);
+    EXPECT_EQ(levels[1].rgba[0], 128);
+    EXPECT_EQ(levels[1].rgba[1], 128);
+    EXPECT_EQ(levels[1].rgba[3], 64);
+    // One slope and one flat texel: half way between by angle, 22.2 of 44.5 degrees, where a mean of x alone says 20.5.
+    const Image half = image_of(2, 1, [](int x, int) { return std::array{x == 0 ? 217 : 128, 128, 0, 0}; });
+    const double x = mip_chain(half, TexelKind::packed_surface, std::nullopt)[1].rgba[0] / 127.5 - 1.0;
+    EXPECT_NEAR(std::asin(x) * 57.29578, 22.2, 0.5);  // 0.5: a step of 1/127.5
+}
+
+TEST(TextureStorage, AMapOfAnotherSizeIsFiltered) {
+    const Image normals = image_of(4, 4, [](int, int) { return std::array{128, 128, 255, 255}; });
+    const Image factors = image_of(2, 2, [](int x, int) { return std::array{0, 100 * x, 50, 255}; });
+    const Image packed = packed_surface_map(normals, factors);
+    EXPECT_EQ(packed.width, 4);
+    EXPECT_EQ(packed.rgba[4 * 1 + 3], 25) << "a quarter of the way from 0 to 100";
+    EXPECT_EQ(packed.rgba[2], 50);
+}
+
+TEST(TextureStorage, DxtComesBack) {
+    const Image ramp = image_of(18, 9, [](int x, int y) { return std::array{10 * x, 20 * y, 128, 255}; });
+    const Image back = decompressed(compressed(ramp, false));
+    EXPECT_EQ(back.width, 18);
+    const TexelError error = texel_error(ramp, back);
+    // Four colours on a line of 5:6:5 stand for 16 on a plane: half of the span of a block is the worst.
+    EXPECT_LT(error.worst_codes, 30.0);
+    EXPECT_LT(error.rms_codes, 10.0);
+    EXPECT_GT(error.rms_codes, 0.5);
+    const Image flat = image_of(4, 4, [](int, int) { return std::array{255, 0, 132, 255}; });
+    EXPECT_LE(texel_error(flat, decompressed(compressed(flat, false))).worst_codes, 1.0);
+}
+
+TEST(TextureStorage, DxtKeepsAlphaWhenAsked) {
+    const Image image = leaves();
+    ASSERT_TRUE(has_alpha(image));
+    const Image back = decompressed(compressed(image, true));
+    int worst = 0;
+    for (std::size_t i = 3; i < image.rgba.size(); i += 4)
+        worst = std::max(worst, std::abs(back.rgba[i] - image.rgba[i]));
+    EXPECT_LE(worst, 19) << "half of a seventh of 255";
+}
+
+TEST(TextureStorage, GreyNeedsOneChannel) {
+    const Image grey = image_of(2, 2, [](int x, int) { return std::array{9 * x, 9 * x, 9 * x, 255}; });
+    EXPECT_EQ(channels_needed(grey), 1);
+    const Image tinted = image_of(2, 2, [](int x, int) { return std::array{9 * x, 9 * x, 8, 255}; });
+    EXPECT_EQ(channels_needed(tinted), 4);
+}
+
+TEST(TextureStorage, TheLargestImagesGiveFirst) {
+    Scene scene;
+    for (const int size : {1024, 256, 64}) scene.images.push_back({.name = "image", .width = size, .height = size});
+    scene.images.push_back({.name = "unused", .width = 4096, .height = 4096});
+    for (int i = 0; i < 3; ++i) {
+        Material material;
+        material.base_color_texture.image = i;
+        scene.materials.push_back(material);
+    }
+    EXPECT_EQ(levels_to_drop(scene, 100u << 20), (std::vector<int>{0, 0, 0, 0}));
+    EXPECT_EQ(levels_to_drop(scene, 2u << 20), (std::vector<int>{1, 0, 0, 0}));
+    EXPECT_EQ(levels_to_drop(scene, 300u << 10), (std::vector<int>{3, 1, 0, 0}));
+    EXPECT_EQ(levels_to_drop(scene, 0), (std::vector<int>{10, 8, 6, 0})) << "one texel stays";
+}
+
+}  // namespace
+}  // namespace halfframe

@@ -21,12 +21,14 @@ namespace halfframe::content {
 struct BuiltInScene {
     std::string_view name;
     std::string_view purpose;
-    Scene (*make)();
+    Scene (*make)();                                   ///< with the seed it has by itself, if it has one
+    Scene (*make_from)(std::uint32_t seed) = nullptr;  ///< none: it is the same always
 };
 [[nodiscard]] const std::vector<BuiltInScene>& built_in_scenes();
 
-/// A built-in name, or a path that ends in .gltf or .glb. Unknown: Error(input) with the names there are.
-[[nodiscard]] Scene open_scene(const std::string& scene);
+/// A built-in name, or a path that ends in .gltf or .glb. Unknown: Error(input) with the names there are. A seed for
+/// what is not made from one: Error(usage) with the names of the scenes that are.
+[[nodiscard]] Scene open_scene(const std::string& scene, std::optional<std::uint32_t> seed = std::nullopt);
 
 /// Lights for a scene that brings none: the documented `studio` rig, a sun, two points and an ambient, sized to the
 /// scene's box. An `environment` (the built-in one called studio goes with it) takes the place of the ambient, so that

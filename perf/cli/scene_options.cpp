@@ -230,6 +230,11 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
                     "Vertical field of view [degrees], above 0 and below 180. Default: the camera's, else 40")
         ->type_name("DEG");
     command
+        .add_option("--seed", options.seed,
+                    "Number that a built-in scene is made from, 0 to 4294967295; an error for a scene that is not. "
+                    "Default: the scene's own")
+        ->type_name("N");
+    command
         .add_option(
             "--set", options.settings,
             "Change the scene; repeatable. exposure=N (above 0); ambient=R,G,B (linear light); sky.zenith=R,G,B, "
@@ -275,7 +280,7 @@ OpenedScene open_with_options(const std::string& scene, const SceneOptions& opti
                                               largest, largest));
     }
     OpenedScene opened;
-    opened.scene = content::open_scene(scene);
+    opened.scene = content::open_scene(scene, options.seed);
     const bool is_file = scene.ends_with(".gltf") || scene.ends_with(".glb");
     opened.label = is_file ? std::filesystem::path(scene).filename().string() : scene;
     opened.wishes = parse_wishes(options);
@@ -324,6 +329,9 @@ std::vector<std::string> option_words(const SceneOptions& options) {
     add("--target", options.target, "");
     if (options.fov_y_deg) {
         add("--fov-y", fmt::format("{}", *options.fov_y_deg), "");
+    }
+    if (options.seed) {
+        add("--seed", fmt::format("{}", *options.seed), "");
     }
     for (const std::string& setting : options.settings) {
         add("--set", setting, "");

@@ -1,6 +1,7 @@
 // The options that decide what a frame of a scene is, shared by render, report and plan.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -30,6 +31,7 @@ struct SceneOptions {
     std::string eye;
     std::string target;
     std::optional<double> fov_y_deg;
+    std::optional<std::uint32_t> seed;  ///< empty: the scene's own, if it is made from one
     std::vector<std::string> settings;
 };
 

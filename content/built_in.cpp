@@ -3,6 +3,8 @@
 
 #include "content/charts/charts.h"
 #include "content/content.h"
+#include "content/memory_room/memory_room.h"
+#include "content/street/street.h"
 
 namespace halfframe::content {
 
@@ -25,6 +27,10 @@ const std::vector<BuiltInScene>& built_in_scenes() {
          &make_charts},
         {"lamps", "panels from smooth to rough under shining spheres and points: what the radius of a light does",
          &make_lamps},
+        {"street", "Neo-Paris at night, made from a seed: facades, neon, an arcade, people; six cameras",
+         [] { return make_street(street::kDefaultSeed); }, &make_street},
+        {"memory_room", "a white space of glass shards, frames and light: translucents at many depths, from a seed",
+         [] { return make_memory_room(memory_room::kDefaultSeed); }, &make_memory_room},
         {"empty", "nothing at all: what a frame costs before anything is drawn", &make_empty},
     };
     return kScenes;

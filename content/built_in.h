@@ -1,6 +1,7 @@
 // The scenes that need no file, and what they are assembled with.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <utility>
 
@@ -13,6 +14,8 @@ namespace halfframe::content {
 [[nodiscard]] Scene make_spheres();
 [[nodiscard]] Scene make_lamps();
 [[nodiscard]] Scene make_test_room();
+[[nodiscard]] Scene make_street(std::uint32_t seed);
+[[nodiscard]] Scene make_memory_room(std::uint32_t seed);
 
 /// Each of these adds one thing to a scene and returns its index.
 inline int add_mesh(Scene& scene, Mesh mesh, const std::string& name) {

@@ -1,6 +1,7 @@
 // What is drawn: glTF files, built-in scenes, environments, and the data files of content/ (devices, budgets).
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -16,8 +17,9 @@ namespace halfframe::content {
 
 /// What of a glTF file is loaded.
 struct LoadOptions {
-    std::string scene;    ///< by name, or by number from 0; empty: the file's default scene
-    std::string variant;  ///< of its materials (KHR_materials_variants), by name or number; empty: the file's own
+    std::string scene = {};    ///< by name, or by number from 0; empty: the file's default scene
+    std::string variant = {};  ///< of its materials (KHR_materials_variants), by name or number; empty: the file's own
+    std::optional<std::uint32_t> seed = std::nullopt;  ///< of a built-in scene that is made from one; empty: its own
 };
 
 /// Reads a .gltf or .glb file. Bad or unsupported input: Error(input) that names the file, the place in it (JSON
@@ -34,12 +36,13 @@ struct LoadOptions {
 struct BuiltInScene {
     std::string_view name;
     std::string_view purpose;
-    Scene (*make)();
+    Scene (*make)();                                   ///< with the seed it has by itself, if it has one
+    Scene (*make_from)(std::uint32_t seed) = nullptr;  ///< none: it is the same always
 };
 [[nodiscard]] const std::vector<BuiltInScene>& built_in_scenes();
 
-/// A built-in name, or a path that ends in .gltf or .glb. Unknown: Error(input) with the names there are. A built-in
-/// scene with options: Error(usage).
+/// A built-in name, or a path that ends in .gltf or .glb. Unknown: Error(input) with the names there are. Options that
+/// mean nothing to the scene: Error(usage).
 [[nodiscard]] Scene open_scene(const std::string& scene, const LoadOptions& options = {});
 
 /// Lights for a scene that brings none: the documented `studio` rig, a sun, two points and an ambient, sized to the

@@ -293,6 +293,11 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
                     "Vertical field of view [degrees], above 0 and below 180. Default: the camera's, else 40")
         ->type_name("DEG");
     command
+        .add_option("--seed", options.seed,
+                    "Number that a built-in scene is made from, 0 to 4294967295; an error for a scene that is not. "
+                    "Default: the scene's own")
+        ->type_name("N");
+    command
         .add_option(
             "--set", options.settings,
             "Change the scene; repeatable. exposure=N (above 0); ambient=R,G,B (linear light); sky.zenith=R,G,B, "
@@ -341,7 +346,8 @@ OpenedScene open_with_options(const std::string& scene, const SceneOptions& opti
                                               largest, largest));
     }
     OpenedScene opened;
-    opened.scene = content::open_scene(scene, {.scene = options.gltf_scene, .variant = options.variant});
+    opened.scene =
+        content::open_scene(scene, {.scene = options.gltf_scene, .variant = options.variant, .seed = options.seed});
     const bool is_file = scene.ends_with(".gltf") || scene.ends_with(".glb");
     opened.label = is_file ? std::filesystem::path(scene).filename().string() : scene;
     opened.wishes = parse_wishes(options);
@@ -408,6 +414,9 @@ std::vector<std::string> option_words(const SceneOptions& options) {
         add("--time", fmt::format("{}", *options.time_s), "");
     }
     add("--animation", options.animation, "");
+    if (options.seed) {
+        add("--seed", fmt::format("{}", *options.seed), "");
+    }
     for (const std::string& setting : options.settings) {
         add("--set", setting, "");
     }

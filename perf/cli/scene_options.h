@@ -1,6 +1,7 @@
 // The options that decide what a frame of a scene is, shared by render, report and plan.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -34,6 +35,7 @@ struct SceneOptions {
     std::optional<double> fov_y_deg;
     std::optional<double> time_s;  ///< empty and no animation: the rest pose
     std::string animation;         ///< name or number; empty: the first, if a time is given
+    std::optional<std::uint32_t> seed;  ///< empty: the scene's own, if it is made from one
     std::vector<std::string> settings;
 };
 

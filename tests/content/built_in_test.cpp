@@ -12,7 +12,7 @@ namespace {
 bool finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 TEST(BuiltIn, TheListAndOpenSceneAgree) {
-    ASSERT_EQ(content::built_in_scenes().size(), 6u);
+    ASSERT_EQ(content::built_in_scenes().size(), 8u);
     for (const content::BuiltInScene& each : content::built_in_scenes()) {
         EXPECT_EQ(content::open_scene(std::string(each.name)).name, each.name);
         EXPECT_FALSE(each.purpose.empty());
@@ -136,8 +136,9 @@ TEST(BuiltIn, UnknownNamesOfferTheNearest) {
     } catch (const Error& error) {
         EXPECT_EQ(error.fault(), Fault::input);
         EXPECT_NE(std::string(error.what()).find("did you mean 'test_room'?"), std::string::npos) << error.what();
-        EXPECT_NE(std::string(error.what()).find("furnace, test_room, spheres, charts, lamps, empty"),
-                  std::string::npos)
+        EXPECT_NE(
+            std::string(error.what()).find("furnace, test_room, spheres, charts, lamps, street, memory_room, empty"),
+            std::string::npos)
             << error.what();
     }
 }

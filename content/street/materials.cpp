@@ -1,0 +1,167 @@
+// Makes the materials and their textures.
+#include "content/street/materials.h"
+
+#include "content/street/sign_textures.h"
+#include "content/street/textures.h"
+
+namespace halfframe::content::street {
+
+namespace {
+
+Material plain(const char* name, const glm::vec3& linear, float roughness) {
+    Material material;
+    material.name = name;
+    material.base_color = glm::vec4(linear, 1.0f);
+    material.metallic = 0.0f;
+    material.roughness = roughness;
+    return material;
+}
+
+Material metal(const char* name, const glm::vec3& specular, float roughness) {
+    Material material = plain(name, specular, roughness);
+    material.metallic = 1.0f;
+    return material;
+}
+
+/// Black but for what it sends out.
+Material shining(const char* name, const glm::vec3& radiance) {
+    Material material = plain(name, glm::vec3(0.0f), 0.6f);
+    material.model = MaterialModel::unlit;
+    material.emissive = radiance;
+    return material;
+}
+
+/// Light in the air: no lamp shines on it.
+Material blended(const char* name, const glm::vec3& radiance, float alpha) {
+    Material material = plain(name, glm::vec3(0.0f), 1.0f);
+    material.model = MaterialModel::unlit;
+    material.emissive = radiance;
+    material.base_color.a = alpha;
+    material.alpha_mode = AlphaMode::blend;
+    material.double_sided = true;
+    return material;
+}
+
+Material textured(Builder& builder, const char* name, TextureSet set, float normal_scale = 1.0f) {
+    Material material = plain(name, glm::vec3(1.0f), 1.0f);
+    material.metallic = 1.0f;  // the texture says where
+    material.normal_scale = normal_scale;
+    material.base_color_texture.image = builder.add_image(std::move(set.base_color));
+    material.normal_texture.image = builder.add_image(std::move(set.normal));
+    material.metallic_roughness_texture.image = builder.add_image(std::move(set.metallic_roughness));
+    if (!set.emissive.rgba.empty()) material.emissive_texture.image = builder.add_image(std::move(set.emissive));
+    return material;
+}
+
+void add_walls_and_ground(Builder& builder, Materials& of, std::uint32_t seed) {
+    const Material stone = textured(builder, "stone", stone_texture(mixed(seed, 1)));
+    of.stone = builder.add_material(stone, {.side_m = kStoneSide_m, .wall = true});
+    Material trim = stone;
+    trim.name = "trim";
+    trim.base_color = glm::vec4(1.0f);
+    of.trim = builder.add_material(trim, {.side_m = kStoneSide_m, .wall = true});
+    of.brick = builder.add_material(textured(builder, "brick", brick_texture(mixed(seed, 2))),
+                                    {.side_m = kBrickSide_m, .wall = true});
+    of.plaster = builder.add_material(textured(builder, "plaster", plaster_texture(mixed(seed, 3))),
+                                      {.side_m = kPlasterSide_m, .wall = true});
+    of.panels = builder.add_material(textured(builder, "panels", panel_texture(mixed(seed, 4))),
+                                     {.side_m = kPanelSide_m, .wall = true});
+    of.zinc = builder.add_material(textured(builder, "zinc", zinc_texture(mixed(seed, 5))), {kZincSide_m});
+    of.wood = builder.add_material(textured(builder, "boards", wood_texture(mixed(seed, 6))), {kWoodSide_m});
+    of.asphalt = builder.add_material(textured(builder, "asphalt", asphalt_texture(mixed(seed, 7))),
+                                      {.side_m = kAsphaltSide_m, .colors = true});
+    of.cobbles = builder.add_material(textured(builder, "cobbles", cobble_texture(mixed(seed, 8))),
+                                      {.side_m = kCobbleSide_m, .colors = true});
+    of.paving = builder.add_material(textured(builder, "paving", paving_texture(mixed(seed, 9))), {kPavingSide_m});
+    of.kerb = builder.add_material(plain("kerb", {0.16f, 0.165f, 0.17f}, 0.55f), {});
+    of.paint = builder.add_material(plain("road paint", {0.42f, 0.43f, 0.44f}, 0.45f), {});
+}
+
+void add_openings(Builder& builder, Materials& of, std::uint32_t seed) {
+    Material window = textured(builder, "windows", window_textures(mixed(seed, 10)), 0.5f);
+    window.emissive = glm::vec3(4.2f);
+    of.window = builder.add_material(window, {.wall = true});
+    Material shop = plain("shop windows", glm::vec3(0.02f), 0.12f);
+    shop.emissive = glm::vec3(4.6f);
+    shop.emissive_texture.image = builder.add_image(shop_picture(mixed(seed, 11)));
+    of.shop_window = builder.add_material(shop, {});
+    Material glass = plain("glass", {0.05f, 0.07f, 0.09f}, 0.08f);
+    glass.base_color.a = 0.30f;
+    glass.alpha_mode = AlphaMode::blend;
+    glass.double_sided = true;
+    of.glass = builder.add_material(glass, {});
+    Material railing = plain("railing", glm::vec3(1.0f), 0.5f);
+    railing.base_color_texture.image = builder.add_image(railing_picture());
+    railing.alpha_mode = AlphaMode::mask;
+    railing.alpha_cutoff = 0.35f;  // its mips grow thin: kept a little wider than half
+    railing.double_sided = true;
+    of.railing = builder.add_material(railing, {});
+    const int boards = builder.scene().materials[static_cast<std::size_t>(of.wood)].base_color_texture.image;
+    Material shutter = builder.scene().materials[static_cast<std::size_t>(of.wood)];
+    shutter.name = "blue shutters";
+    shutter.base_color_texture.image = boards;
+    shutter.base_color = glm::vec4(0.42f, 0.62f, 0.95f, 1.0f);
+    of.shutter_blue = builder.add_material(shutter, {kWoodSide_m});
+    shutter.name = "grey shutters";
+    shutter.base_color = glm::vec4(0.80f, 0.92f, 1.0f, 1.0f);
+    of.shutter_grey = builder.add_material(shutter, {kWoodSide_m});
+    of.door = builder.add_material(plain("door", {0.030f, 0.052f, 0.075f}, 0.35f), {});
+}
+
+void add_things(Builder& builder, Materials& of) {
+    of.iron = builder.add_material(plain("iron", {0.030f, 0.033f, 0.038f}, 0.45f), {});
+    of.steel = builder.add_material(metal("steel", {0.62f, 0.61f, 0.60f}, 0.34f), {});
+    of.copper = builder.add_material(metal("copper", {0.93f, 0.54f, 0.50f}, 0.42f), {});
+    of.rubber = builder.add_material(plain("rubber", {0.016f, 0.016f, 0.017f}, 0.7f), {});
+    of.leaves = builder.add_material(plain("leaves", {0.045f, 0.085f, 0.050f}, 0.6f), {});
+    of.soil = builder.add_material(plain("soil", {0.045f, 0.035f, 0.028f}, 0.9f), {});
+    of.cloth_red = builder.add_material(plain("red cloth", {0.30f, 0.045f, 0.045f}, 0.85f), {});
+    of.cloth_blue = builder.add_material(plain("blue cloth", {0.050f, 0.10f, 0.24f}, 0.85f), {});
+    of.cloth_purple = builder.add_material(plain("purple cloth", {0.15f, 0.06f, 0.22f}, 0.85f), {});
+    of.lacquer_red = builder.add_material(plain("red lacquer", {0.26f, 0.025f, 0.025f}, 0.22f), {});
+    of.lacquer_blue = builder.add_material(plain("blue lacquer", {0.028f, 0.055f, 0.12f}, 0.20f), {});
+    of.lacquer_pale = builder.add_material(plain("pale lacquer", {0.30f, 0.32f, 0.35f}, 0.24f), {});
+}
+
+void add_lights_and_air(Builder& builder, Materials& of, std::uint32_t seed) {
+    Material signs = shining("signs across", glm::vec3(7.0f));
+    signs.emissive_texture.image = builder.add_image(signs_across_picture());
+    of.signs_across = builder.add_material(signs, {.unlit = true});
+    signs.name = "signs down";
+    signs.emissive_texture.image = builder.add_image(signs_down_picture());
+    of.signs_down = builder.add_material(signs, {.unlit = true});
+    Material skyline = shining("skyline", glm::vec3(0.55f));
+    skyline.emissive_texture.image = builder.add_image(skyline_picture(mixed(seed, 12)));
+    of.skyline = builder.add_material(skyline, {.side_m = 26.0f, .unlit = true});
+    of.lamp_warm = builder.add_material(shining("warm lamp", {7.0f, 4.6f, 2.5f}), {.unlit = true});
+    of.lamp_cool = builder.add_material(shining("cool lamp", {3.6f, 5.2f, 7.0f}), {.unlit = true});
+    of.glow_red = builder.add_material(shining("red glow", {4.2f, 0.40f, 0.30f}), {.unlit = true});
+    of.glow_blue = builder.add_material(shining("blue glow", {0.35f, 1.5f, 4.6f}), {.unlit = true});
+    of.glow_purple = builder.add_material(shining("purple glow", {2.2f, 0.7f, 4.4f}), {.unlit = true});
+    of.glow_cyan = builder.add_material(shining("cyan glow", {0.9f, 3.6f, 4.4f}), {.unlit = true});
+    const int pictures = builder.add_image(hologram_picture(mixed(seed, 13)));
+    const auto hologram = [&](const char* name, const glm::vec3& radiance) {
+        Material material = blended(name, radiance, 0.85f);
+        material.base_color_texture.image = pictures;
+        return builder.add_material(material, {});
+    };
+    of.hologram_cyan = hologram("cyan hologram", {0.9f, 3.4f, 4.0f});
+    of.hologram_red = hologram("red hologram", {4.0f, 0.60f, 0.50f});
+    of.hologram_purple = hologram("purple hologram", {2.4f, 0.9f, 4.2f});
+    of.haze = builder.add_material(blended("haze", {0.060f, 0.075f, 0.100f}, 1.0f), {.colors = true});
+    of.warm_beam = builder.add_material(blended("warm beam", {0.85f, 0.56f, 0.30f}, 1.0f), {.colors = true});
+    of.cool_beam = builder.add_material(blended("cool beam", {0.40f, 0.58f, 0.85f}, 1.0f), {.colors = true});
+}
+
+}  // namespace
+
+Materials add_materials(Builder& builder, std::uint32_t seed) {
+    Materials of;
+    add_walls_and_ground(builder, of, seed);
+    add_openings(builder, of, seed);
+    add_things(builder, of);
+    add_lights_and_air(builder, of, seed);
+    return of;
+}
+
+}  // namespace halfframe::content::street

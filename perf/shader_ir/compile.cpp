@@ -81,16 +81,54 @@ spvtools::MessageConsumer into(std::string& story) {
     };
 }
 
-void inline_all(std::vector<std::uint32_t>& words) {
-    std::string story;
-    spvtools::Optimizer optimizer(kEnvironment);
-    optimizer.SetMessageConsumer(into(story));
+/// glslang marks no loop: unrolling is asked for by a bit of OpLoopMerge, its third operand.
+void ask_to_unroll(std::vector<std::uint32_t>& words) {
+    constexpr std::size_t kHeaderWords = 5;
+    constexpr std::size_t kLoopControl = 3;
+    for (std::size_t at = kHeaderWords; at < words.size(); at += words[at] >> spv::WordCountShift) {
+        if (static_cast<spv::Op>(words[at] & spv::OpCodeMask) == spv::OpLoopMerge)
+            words.at(at + kLoopControl) |= spv::LoopControlUnrollMask;
+    }
+}
+
+void register_inlining(spvtools::Optimizer& optimizer) {
     optimizer.RegisterPass(spvtools::CreateInlineExhaustivePass())
         .RegisterPass(spvtools::CreateEliminateDeadFunctionsPass())
         .RegisterPass(spvtools::CreateScalarReplacementPass())
         .RegisterPass(spvtools::CreateLocalAccessChainConvertPass())
         .RegisterPass(spvtools::CreateSSARewritePass())
         .RegisterPass(spvtools::CreateAggressiveDCEPass());
+}
+
+/// Twice: unrolling turns indices into constants, and only then can arrays be taken apart and branches be decided.
+void register_optimising(spvtools::Optimizer& optimizer) {
+    for (int round = 0; round < 2; ++round) {
+        optimizer.RegisterPass(spvtools::CreateCCPPass())
+            .RegisterPass(spvtools::CreateLoopUnrollPass(true))
+            .RegisterPass(spvtools::CreateDeadBranchElimPass())
+            .RegisterPass(spvtools::CreateScalarReplacementPass())
+            .RegisterPass(spvtools::CreateLocalAccessChainConvertPass())
+            .RegisterPass(spvtools::CreateSSARewritePass())
+            .RegisterPass(spvtools::CreateCCPPass())
+            .RegisterPass(spvtools::CreateSimplificationPass())
+            .RegisterPass(spvtools::CreateIfConversionPass())
+            .RegisterPass(spvtools::CreateSimplificationPass())
+            .RegisterPass(spvtools::CreateRedundancyEliminationPass())
+            .RegisterPass(spvtools::CreateDeadBranchElimPass())
+            .RegisterPass(spvtools::CreateBlockMergePass())
+            .RegisterPass(spvtools::CreateAggressiveDCEPass());
+    }
+}
+
+void clean(std::vector<std::uint32_t>& words, Cleaning cleaning) {
+    std::string story;
+    spvtools::Optimizer optimizer(kEnvironment);
+    optimizer.SetMessageConsumer(into(story));
+    register_inlining(optimizer);
+    if (cleaning == Cleaning::optimised) {
+        ask_to_unroll(words);
+        register_optimising(optimizer);
+    }
     std::vector<std::uint32_t> cleaned;
     expect(optimizer.Run(words.data(), words.size(), &cleaned), [&] { return "SPIRV-Tools gave up: " + story; });
     words = std::move(cleaned);
@@ -98,9 +136,15 @@ void inline_all(std::vector<std::uint32_t>& words) {
 
 }  // namespace
 
+std::string compiler_versions() {
+    const glslang::Version version = glslang::GetVersion();
+    return fmt::format("glslang {}.{}.{}, {}", version.major, version.minor, version.patch,
+                       spvSoftwareVersionString());
+}
+
 Module compile(const gl::StageText& text, gl::Stage stage, Cleaning cleaning) {
     std::vector<std::uint32_t> words = spirv_of(text, stage);
-    if (cleaning == Cleaning::inlined) inline_all(words);
+    if (cleaning != Cleaning::none) clean(words, cleaning);
     std::string story;
     spvtools::SpirvTools tools(kEnvironment);
     tools.SetMessageConsumer(into(story));

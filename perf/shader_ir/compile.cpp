@@ -6,9 +6,13 @@
 #include <glslang/Public/ShaderLang.h>
 #include <glslang/SPIRV/GlslangToSpv.h>
 
+#include <map>
+#include <optional>
+#include <set>
 #include <spirv-tools/libspirv.hpp>
 #include <spirv-tools/optimizer.hpp>
 #include <sstream>
+#include <tuple>
 
 #include "engine/error.h"
 
@@ -91,6 +95,65 @@ void ask_to_unroll(std::vector<std::uint32_t>& words) {
     }
 }
 
+/// The unroller copies instructions and forgets their decorations. What was mediump before is found again by its line,
+/// operation and type; where these do not tell, an operation is mediump when all it reads is, as in GLSL ES.
+class PrecisionMemory {
+public:
+    explicit PrecisionMemory(const Module& before) {
+        each(before, [&](const Instruction& one) { seen_[key(before, one)].insert(one.relaxed); });
+    }
+
+    void restore(Module& after) const {
+        for (bool changed = true; changed;) {
+            changed = false;
+            for (Function& function : after.functions) {
+                for (Block& block : function.blocks) {
+                    for (Instruction& one : block.instructions) {
+                        if (one.result == 0 || one.relaxed || !was_relaxed(after, one)) continue;
+                        one.relaxed = true;
+                        after.relaxed.at(one.result) = true;
+                        changed = true;
+                    }
+                }
+            }
+        }
+    }
+
+private:
+    using Key = std::tuple<std::uint32_t, spv::Op, std::uint32_t, std::uint32_t>;
+
+    template <typename Use>
+    static void each(const Module& module, Use use) {
+        for (const Function& function : module.functions) {
+            for (const Block& block : function.blocks) {
+                for (const Instruction& one : block.instructions)
+                    if (one.result != 0 && one.type != 0) use(one);
+            }
+        }
+    }
+
+    static Key key(const Module& module, const Instruction& one) {
+        const std::uint32_t function = one.op == spv::OpExtInst ? one.operands.at(1) : 0;
+        return {one.line, one.op, function, module.type(one.type).scalars};
+    }
+
+    bool was_relaxed(const Module& after, const Instruction& one) const {
+        const auto found = seen_.find(key(after, one));
+        if (found != seen_.end() && found->second.size() == 1) return *found->second.begin();
+        if (one.op == spv::OpLoad || after.type(one.type).kind == Type::Kind::pointer) return false;
+        bool any = false;
+        for (std::size_t i = one.op == spv::OpExtInst ? 2 : 0; i < one.operands.size(); ++i) {
+            const Id operand = one.operands[i];
+            if (operand >= after.bound || after.constants.contains(operand)) continue;
+            if (!after.relaxed[operand]) return false;
+            any = true;
+        }
+        return any;
+    }
+
+    std::map<Key, std::set<bool>> seen_;
+};
+
 void register_inlining(spvtools::Optimizer& optimizer) {
     optimizer.RegisterPass(spvtools::CreateInlineExhaustivePass())
         .RegisterPass(spvtools::CreateEliminateDeadFunctionsPass())
@@ -120,15 +183,11 @@ void register_optimising(spvtools::Optimizer& optimizer) {
     }
 }
 
-void clean(std::vector<std::uint32_t>& words, Cleaning cleaning) {
+void run(void (*register_passes)(spvtools::Optimizer&), std::vector<std::uint32_t>& words) {
     std::string story;
     spvtools::Optimizer optimizer(kEnvironment);
     optimizer.SetMessageConsumer(into(story));
-    register_inlining(optimizer);
-    if (cleaning == Cleaning::optimised) {
-        ask_to_unroll(words);
-        register_optimising(optimizer);
-    }
+    register_passes(optimizer);
     std::vector<std::uint32_t> cleaned;
     expect(optimizer.Run(words.data(), words.size(), &cleaned), [&] { return "SPIRV-Tools gave up: " + story; });
     words = std::move(cleaned);
@@ -138,18 +197,26 @@ void clean(std::vector<std::uint32_t>& words, Cleaning cleaning) {
 
 std::string compiler_versions() {
     const glslang::Version version = glslang::GetVersion();
-    return fmt::format("glslang {}.{}.{}, {}", version.major, version.minor, version.patch,
+    return fmt::format("glslang {}.{}.{}, SPIRV-Tools {}", version.major, version.minor, version.patch,
                        spvSoftwareVersionString());
 }
 
 Module compile(const gl::StageText& text, gl::Stage stage, Cleaning cleaning) {
     std::vector<std::uint32_t> words = spirv_of(text, stage);
-    if (cleaning != Cleaning::none) clean(words, cleaning);
+    if (cleaning != Cleaning::none) run(register_inlining, words);
+    std::optional<PrecisionMemory> memory;
+    if (cleaning == Cleaning::optimised) {
+        memory.emplace(parse(words, text.files));
+        ask_to_unroll(words);
+        run(register_optimising, words);
+    }
     std::string story;
     spvtools::SpirvTools tools(kEnvironment);
     tools.SetMessageConsumer(into(story));
     expect(tools.Validate(words), [&] { return "SPIR-V that is not valid: " + story; });
-    return parse(std::move(words), text.files);
+    Module module = parse(std::move(words), text.files);
+    if (memory) memory->restore(module);
+    return module;
 }
 
 Module compile(const gl::ProgramDescription& description, gl::Stage stage, Cleaning cleaning,

@@ -31,6 +31,7 @@ public:
 [[nodiscard]] std::unique_ptr<Command> make_effects_command(CLI::App& app);
 [[nodiscard]] std::unique_ptr<Command> make_scenes_command(CLI::App& app);
 [[nodiscard]] std::unique_ptr<Command> make_accuracy_command(CLI::App& app);
+[[nodiscard]] std::unique_ptr<Command> make_cost_command(CLI::App& app);
 
 /// Printed under every --help.
 inline constexpr const char* kExitCodes =

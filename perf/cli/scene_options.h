@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/frame/frame_plan.h"
@@ -51,6 +52,9 @@ struct OpenedScene {
 
 /// Error(usage) for anything in the options that can be seen to be wrong without a context or a scene.
 void check_options(const SceneOptions& options);
+
+/// Width and height of --size; Error(usage) as above.
+[[nodiscard]] std::pair<int, int> parsed_size(const SceneOptions& options);
 
 /// " --size 64x64 --tier low": the options that differ from the defaults, quoted for a shell.
 [[nodiscard]] std::string options_text(const SceneOptions& options);

@@ -43,8 +43,10 @@ struct GlslangProcess {
     throw Error(Fault::check, "a shader does not compile to SPIR-V: " + (story.empty() ? log : story));
 }
 
+void start_glslang() { static const GlslangProcess kProcess; }
+
 std::vector<std::uint32_t> spirv_of(const gl::StageText& text, gl::Stage stage) {
-    static const GlslangProcess kProcess;
+    start_glslang();
     const EShLanguage language = stage == gl::Stage::vertex ? EShLangVertex : EShLangFragment;
     glslang::TShader shader(language);
     const char* source = text.text.c_str();
@@ -163,6 +165,9 @@ void register_inlining(spvtools::Optimizer& optimizer) {
         .RegisterPass(spvtools::CreateAggressiveDCEPass());
 }
 
+/// Inlining leaves out functions that return from inside a loop: these are given one return first.
+void register_one_return(spvtools::Optimizer& optimizer) { optimizer.RegisterPass(spvtools::CreateMergeReturnPass()); }
+
 /// Twice: unrolling turns indices into constants, and only then can arrays be taken apart and branches be decided.
 void register_optimising(spvtools::Optimizer& optimizer) {
     for (int round = 0; round < 2; ++round) {
@@ -201,8 +206,18 @@ std::string compiler_versions() {
                        spvSoftwareVersionString());
 }
 
+void check_es100(const gl::StageText& text) {
+    start_glslang();
+    glslang::TShader shader(EShLangFragment);
+    const char* source = text.text.c_str();
+    shader.setStrings(&source, 1);
+    if (!shader.parse(GetDefaultResources(), 100, EEsProfile, false, false, EShMsgDefault))
+        refuse(shader.getInfoLog(), text);
+}
+
 Module compile(const gl::StageText& text, gl::Stage stage, Cleaning cleaning) {
     std::vector<std::uint32_t> words = spirv_of(text, stage);
+    if (cleaning == Cleaning::optimised) run(register_one_return, words);
     if (cleaning != Cleaning::none) run(register_inlining, words);
     std::optional<PrecisionMemory> memory;
     if (cleaning == Cleaning::optimised) {

@@ -26,6 +26,9 @@ enum class Cleaning {
 /// line for text that does not compile.
 [[nodiscard]] Module compile(const gl::StageText& text, gl::Stage stage, Cleaning cleaning = Cleaning::none);
 
+/// Compiles a fragment stage as ES 1.00, to nothing: Error(check) naming file and line for text that is not.
+void check_es100(const gl::StageText& text);
+
 /// Assembles and compiles a stage of a program. Always in the ES 3.00 dialect: a description in ES 1.00 gives its
 /// ES 3.00 twin and a Module that says `up_converted`.
 [[nodiscard]] Module compile(const gl::ProgramDescription& description, gl::Stage stage,

@@ -168,7 +168,7 @@ TEST(BudgetText, keeps_the_columns_of_the_model_and_names_the_sources) {
     const FrameReport report = sample_report(true);
     const std::string text = budget_text(budget_table(report, sample_budget(), false), report);
     for (const char* expected : {"published", "ours", "ps3", "x360", "es2", "here", "verdict", "[2] PS3: a talk",
-                                 "not modelled yet", "not built"}) {
+                                 "by --cost, which was not given", "not built"}) {
         EXPECT_NE(text.find(expected), std::string::npos) << expected << " is missing in\n" << text;
     }
 }

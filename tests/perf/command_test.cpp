@@ -137,13 +137,14 @@ TEST(Usage, help_explains_every_option_and_the_exit_codes) {
     const std::vector<std::pair<std::string, std::vector<std::string>>> commands{
         {"render", {"--output", "--size",  "--tier",   "--arithmetic", "--storage", "--context", "--device",
                     "--camera", "--eye",   "--target", "--fov-y",      "--set",     "--measure", "--budget",
-                    "--census", "--cache", "--json",   "--trace",      "--ledger",  "--html"}},
+                    "--census", "--cache", "--json",   "--trace",      "--ledger",  "--html",    "--cost"}},
         {"report", {"--output", "--size", "--tier", "--measure", "--budget", "--json"}},
         {"plan", {"--size", "--tier", "--device", "--json"}},
         {"info", {"--context", "--device", "--json"}},
         {"effects", {"--json"}},
         {"scenes", {"--json"}},
-        {"accuracy", {"--json"}}};
+        {"accuracy", {"--json"}},
+        {"cost", {"--size", "--tier", "--profile", "--why", "--texture", "--into", "--json", "--csv", "--trace"}}};
     for (const auto& [command, options] : commands) {
         const ChildResult help = halfframe({command, "--help"});
         EXPECT_EQ(help.code, 0) << command;

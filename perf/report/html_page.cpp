@@ -127,7 +127,8 @@ std::string budget_rows(const BudgetTable& table, std::vector<std::string>& sour
         rows += cell(line.share_of_frame ? fmt::format("{:.1f} %", 100.0 * *line.share_of_frame) : "-", "number");
         rows += bar(line);
         rows += cell(line.bytes > 0 ? bytes_text(line.bytes) : "-", "number");
-        rows += cell(line.verdict_text, style_of(line.verdict)) + "</tr>\n";
+        const char* style = line.modelled_over.empty() ? style_of(line.verdict) : "why";  // long: it may wrap
+        rows += cell(line.verdict_text, style) + "</tr>\n";
     }
     return rows;
 }

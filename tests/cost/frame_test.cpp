@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <set>
 
 #include <nlohmann/json.hpp>
@@ -137,6 +138,22 @@ TEST(Frames, OutputFollowsThePublishedSchema) {
     EXPECT_EQ(schema_violation(schema_named("cost.schema.json"), broken), "/devices: not of type array");
 }
 
+TEST(Frames, AProfileOfTheUsersStandsAlone) {
+    json profile;
+    for (const content::DataFile& file : content::data_files())
+        if (std::string(file.path) == "profiles/ps3.json") profile = json::parse(file.text);
+    profile["name"] = "half_a_ps3";
+    profile["constants"]["fragment_pipes"]["value"] = 12;
+    const std::string file = temporary("halfframe_half_ps3.json", profile.dump());
+    const json cost = cost_of({"test_room", "--profile", file, "--profile", "ps3"}).at("devices");
+    ASSERT_EQ(cost.size(), 2u);
+    EXPECT_EQ(cost[0].at("profile"), "half_a_ps3");
+    const auto shader_ms = [](const json& device) {
+        return find(device.at("passes"), "pass", "surface").at("units_ms").at("shader").get<double>();
+    };
+    EXPECT_DOUBLE_EQ(shader_ms(cost[0]), 2.0 * shader_ms(cost[1]));
+}
+
 TEST(Frames, WhyListsInstructionsUnderTheirLines) {
     const Answer why = halfframe({"cost", "test_room", "--size", "64x36", "--why", "tone_map"});
     EXPECT_EQ(why.code, 0) << why.err;
@@ -220,6 +237,30 @@ TEST(Tables, CostsOfEffectsAreThoseOfTheShaders) {
     const json table = json::parse(kept);
     EXPECT_EQ(table.at("model_version"), 1);
     EXPECT_GT(table.at("rows").size(), 20u);
+}
+
+/// Passes times the slowdown by temporaries: what the RSX's shader time is proportional to.
+double rsx_cost(const json& row) {
+    const double temporaries =
+        row.at("full_temporaries").get<double>() + 0.5 * row.at("half_temporaries").get<double>();
+    return row.at("rsx_passes").get<double>() * std::max(1.0, std::sqrt(temporaries / 4.0));
+}
+
+TEST(Tables, HalfIsDearerThanFullInNoShaderOnTheRsx) {
+    const json rows = json::parse(effect_table_text()).at("rows");
+    std::map<std::string, double> half;
+    int compared = 0;
+    for (const json& row : rows) {
+        const std::string key = row.at("effect").get<std::string>() + row.at("tier").get<std::string>() +
+                                row.at("fragment").get<std::string>() + row.at("defines").get<std::string>();
+        if (row.at("arithmetic") == "half") {
+            half[key] = rsx_cost(row);
+        } else {
+            ++compared;
+            EXPECT_LE(half.at(key), rsx_cost(row) + 1e-9) << key;  // 1e-9: both are quotients of doubles
+        }
+    }
+    EXPECT_GT(compared, 20);
 }
 
 }  // namespace

@@ -3,14 +3,43 @@
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
 #include "content/content.h"
 #include "perf/cli/cache_folder.h"
+#include "perf/cli/own_process.h"
 
 namespace halfframe::cli {
 namespace {
 
 constexpr const char* kDefaultBudget = "ps3_30fps";
+
+/// From `halfframe cost --json`: counting pins the driver, and times must not be taken from a pinned one.
+perf::Modelled modelled(const std::string& scene, SceneOptions options) {
+    options.device.context = SceneOptions().device.context;
+    const nlohmann::json json =
+        nlohmann::json::parse(output_of_own("cost " + shell_quoted(scene) + options_text(options) + " --json"));
+    perf::Modelled result{.arithmetic = json.at("arithmetic").get<std::string>(),
+                          .words = json.at("modelled").get<std::string>()};
+    for (const auto& device : json.at("devices")) {
+        perf::ModelledDevice& to = result.devices.emplace_back();
+        to.name = device.at("profile").get<std::string>();
+        to.frame_ms = device.at("frame_ms").get<double>();
+        to.low_ms = device.at("frame_low_ms").get<double>();
+        to.high_ms = device.at("frame_high_ms").get<double>();
+        to.other_arithmetic_ms = device.at("other_arithmetic_frame_ms").get<double>();
+        for (const auto& pass : device.at("passes")) {
+            to.passes.push_back({pass.at("pass").get<std::string>(), pass.at("ms").get<double>(),
+                                 pass.at("low_ms").get<double>(), pass.at("high_ms").get<double>(),
+                                 pass.at("bound").get<std::string>()});
+        }
+        for (const auto& effect : device.at("effects")) {
+            to.effects.push_back({effect.at("effect").get<std::string>(), effect.at("ms").get<double>(),
+                                  effect.at("bound").get<std::string>()});
+        }
+    }
+    return result;
+}
 
 }  // namespace
 
@@ -31,6 +60,9 @@ void add_drawing_options(CLI::App& command, DrawingOptions& options) {
         ->type_name("NAME|FILE");
     command.add_flag("--census", options.census,
                      "Draw once more with every target RGBA32F and count NaN and inf; exit 1 when there is one");
+    command.add_flag(
+        "--cost", options.cost,
+        "Fill the columns ps3, x360 and es2 of the table: a second process counts, as halfframe cost does");
     command.add_flag("--json", options.json,
                      "Standard output is one JSON value; everything else goes to standard error");
 }
@@ -57,6 +89,10 @@ DrawnScene draw_with_options(GraphicsDevice& device, const std::string& scene, c
     perf::FrameReport& report = drawn.result.report;
     report.scene = opened.label;
     report.context = device.context().description();
+    if (drawing.cost) {
+        request.between("counting " + scene);
+        report.modelled = modelled(scene, options);
+    }
     drawn.budget = perf::budget_table(report, budget, !drawing.budget.empty());
     return drawn;
 }
@@ -98,6 +134,9 @@ std::string options_text(const DrawingOptions& options) {
     }
     if (options.census) {
         text += " --census";
+    }
+    if (options.cost) {
+        text += " --cost";
     }
     return text;
 }

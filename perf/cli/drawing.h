@@ -18,9 +18,10 @@ struct DrawingOptions {
     std::string budget;  ///< empty: the default one, whose frame is not judged on a software driver
     bool census = false;
     bool json = false;
+    bool cost = false;  ///< fill the modelled columns
 };
 
-/// Adds --measure, --budget, --census and --json.
+/// Adds --measure, --budget, --census, --cost and --json.
 void add_drawing_options(CLI::App& command, DrawingOptions& options);
 
 /// The request that the options ask for.

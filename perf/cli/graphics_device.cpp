@@ -14,17 +14,14 @@
 #include "perf/cli/terminal.h"
 
 namespace halfframe::cli {
-namespace {
 
-gl::DeviceProfile profile_named(const std::string& device) {
+gl::DeviceProfile device_mask(const std::string& device) {
     const std::vector<std::string> names = content::device_profile_names();
     if (std::find(names.begin(), names.end(), device) == names.end() && !device.ends_with(".json")) {
         throw Error(Fault::usage, unknown("device", device, names) + ", or a .json file");
     }
     return content::device_profile(device);
 }
-
-}  // namespace
 
 void add_device_options(CLI::App& command, DeviceOptions& options) {
     command
@@ -64,7 +61,7 @@ platform::ContextDescription context_description(const DeviceOptions& options) {
 }
 
 GraphicsDevice::GraphicsDevice(const DeviceOptions& options)
-    : profile_(profile_named(options.device)),
+    : profile_(device_mask(options.device)),
       context_(platform::Context::create(context_description(options))),
       gl_(context_.loader()),
       caps_(gl::masked(gl::read_caps(gl_), profile_)) {

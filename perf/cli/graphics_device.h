@@ -21,6 +21,9 @@ struct DeviceOptions {
 /// Adds --context and --device.
 void add_device_options(CLI::App& command, DeviceOptions& options);
 
+/// A device to imitate, by name or .json file. Error(usage|input) for one that does not exist.
+[[nodiscard]] gl::DeviceProfile device_mask(const std::string& device);
+
 /// Error(usage) for a context that does not exist by name; devices are checked when they are opened.
 [[nodiscard]] platform::ContextDescription context_description(const DeviceOptions& options);
 

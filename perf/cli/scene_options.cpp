@@ -371,6 +371,11 @@ View moved_view(const OpenedScene& opened) {
     return view;
 }
 
+std::pair<int, int> parsed_size(const SceneOptions& options) {
+    const Size size = parse_size(options.size);
+    return {size.width, size.height};
+}
+
 std::string shell_quoted(const std::string& word) {
     constexpr std::string_view kPlain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-+=.,/:@%";
     if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) {

@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/frame/frame_plan.h"
@@ -74,6 +75,9 @@ void check_options(const SceneOptions& options);
 
 /// {"--size", "64x64", "--tier", "low"}: the options that differ from the defaults, as a child process takes them.
 [[nodiscard]] std::vector<std::string> option_words(const SceneOptions& options);
+/// Width and height of --size; Error(usage) as above.
+[[nodiscard]] std::pair<int, int> parsed_size(const SceneOptions& options);
+
 /// " --size 64x64 --tier low": the options that differ from the defaults, quoted for a shell.
 [[nodiscard]] std::string options_text(const SceneOptions& options);
 [[nodiscard]] std::string shell_quoted(const std::string& word);

@@ -88,6 +88,37 @@ std::vector<Row> rows_of(const FramePlan& plan, const Budget& budget) {
     return rows;
 }
 
+/// The effects of a row together, on each device that was modelled.
+void add_modelled(BudgetLine& line, const std::vector<std::string>& effects, const FrameReport& report) {
+    if (!report.modelled) return;
+    for (std::size_t column = 0; column < kModelledCount; ++column) {
+        const ModelledDevice* device = report.modelled->find(kModelledDevices[column]);
+        if (device == nullptr) continue;
+        double most_ms = -1.0;
+        for (const ModelledEffect& effect : device->effects) {
+            if (std::find(effects.begin(), effects.end(), effect.effect) == effects.end()) continue;
+            line.modelled_ms[column] = line.modelled_ms[column].value_or(0.0) + effect.ms;
+            if (effect.ms > most_ms) line.modelled_bound[column] = effect.bound;
+            most_ms = std::max(most_ms, effect.ms);
+        }
+    }
+}
+
+/// A row names its consoles in words: "PS3", "PS3 and X360".
+void compare_modelled(BudgetLine& line) {
+    constexpr std::array<const char*, kModelledCount> kWords{"PS3", "X360", "ES2"};
+    const std::optional<double> allowed = line.published_high_ms ? line.published_high_ms
+                                          : line.published_ms    ? line.published_ms
+                                                                 : line.ours_ms;
+    for (std::size_t column = 0; column < kModelledCount; ++column) {
+        const bool named = line.platforms.find(kWords[column]) != std::string::npos;
+        if (!named || !allowed || !line.modelled_ms[column] || *line.modelled_ms[column] <= *allowed) continue;
+        line.modelled_over += fmt::format("{}{} over by {} ms: {}", line.modelled_over.empty() ? "modelled " : ", ",
+                                          kModelledColumns[column], ms_text(*line.modelled_ms[column] - *allowed),
+                                          line.modelled_bound[column]);
+    }
+}
+
 void judge(BudgetLine& line, const Row& row, const FrameReport& report) {
     const auto say = [&](Verdict verdict, std::string text) {
         line.verdict = verdict;
@@ -133,7 +164,10 @@ void add_lines(BudgetTable& table, const Row& row, const FrameReport& report) {
     if (line.measured) {
         line.share_of_frame = line.measured->median_ms / table.frame_ms;
     }
+    add_modelled(line, row.effects, report);
+    compare_modelled(line);
     judge(line, row, report);
+    if (!line.modelled_over.empty()) line.verdict_text += (line.verdict_text.empty() ? "" : "; ") + line.modelled_over;
     if (line.verdict == Verdict::not_called_for) {
         line.note = row.why_out;
     }
@@ -145,6 +179,12 @@ void add_lines(BudgetTable& table, const Row& row, const FrameReport& report) {
         pass_line.name = pass.name;
         pass_line.is_pass = true;
         pass_line.bytes = bytes_written(report.plan, pass);
+        for (std::size_t column = 0; report.modelled && column < kModelledCount; ++column) {
+            const ModelledDevice* device = report.modelled->find(kModelledDevices[column]);
+            if (device == nullptr || index >= device->passes.size()) continue;
+            pass_line.modelled_ms[column] = device->passes[index].ms;
+            pass_line.modelled_bound[column] = device->passes[index].bound;
+        }
         if (report.measurement) {
             pass_line.measured = report.measurement->passes[index];
             pass_line.share_of_frame = pass_line.measured->median_ms / table.frame_ms;

@@ -1,6 +1,7 @@
 // The budget table: what was published, what is allowed, what was measured here, and what may be compared with what.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,7 +22,7 @@ enum class Verdict {
 
 /// One line: a row of the budget, or (with `is_pass`) a pass that belongs to the row above it.
 /// Published, allowed, modelled and measured figures stand in columns of their own and are never mixed: a modelled
-/// column exists for each device the cost model knows, and is empty until it is computed.
+/// column exists for each device the cost model knows, and is empty where it was not computed.
 struct BudgetLine {
     std::string name;
     bool is_pass = false;
@@ -31,6 +32,10 @@ struct BudgetLine {
     std::string platforms;  ///< of the published figure
     std::string source;
     std::string note;
+    std::array<std::optional<double>, kModelledCount> modelled_ms;  ///< by kModelledColumns
+    std::array<std::string, kModelledCount> modelled_bound;         ///< the unit that takes most
+    /// Where a modelled figure is above the row's on the console that the row names: by how much, and what binds it.
+    std::string modelled_over;
     std::optional<PassTimer::Summary> measured;
     std::optional<double> share_of_frame;  ///< measured median over the budget's frame, 1 = all of it
     std::size_t bytes = 0;                 ///< of the targets written

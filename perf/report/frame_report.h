@@ -14,6 +14,7 @@
 #include "engine/gl/call_ledger.h"
 #include "engine/gl/caps.h"
 #include "engine/gl/program.h"
+#include "perf/report/modelled.h"
 
 namespace halfframe::perf {
 
@@ -61,6 +62,7 @@ struct FrameReport {
     gl::ProgramCache::Statistics programs;
     std::optional<Measurement> measurement;
     std::optional<std::vector<CensusRow>> census;
+    std::optional<Modelled> modelled;
 };
 
 /// Bytes of the targets that a pass writes, colour and depth together; a target bound without being written counts 0.

@@ -120,14 +120,15 @@ std::string budget_rows(const BudgetTable& table, std::vector<std::string>& sour
         }
         rows += "</th>" + cell(published_text(line), "number");
         rows += cell(line.ours_ms ? ms_text(*line.ours_ms) : "-", "number");
-        rows += cell("-", "number") + cell("-", "number") + cell("-", "number");
+        for (int column = 0; column < kModelledCount; ++column) rows += cell(modelled_text(line, column), "number");
         rows += cell(line.measured ? ms_text(line.measured->median_ms) : "-", "number");
         rows += cell(line.measured ? ms_text(line.measured->low_ms) + " to " + ms_text(line.measured->high_ms) : "-",
                      "number");
         rows += cell(line.share_of_frame ? fmt::format("{:.1f} %", 100.0 * *line.share_of_frame) : "-", "number");
         rows += bar(line);
         rows += cell(line.bytes > 0 ? bytes_text(line.bytes) : "-", "number");
-        rows += cell(line.verdict_text, style_of(line.verdict)) + "</tr>\n";
+        const char* style = line.modelled_over.empty() ? style_of(line.verdict) : "why";  // long: it may wrap
+        rows += cell(line.verdict_text, style) + "</tr>\n";
     }
     return rows;
 }
@@ -143,9 +144,10 @@ std::string budget_section(const FrameReport& report, const BudgetTable& table, 
             : "Nothing was measured.");
     html += fmt::format(
         "<p class=\"soft\">Budget {}, in milliseconds. Bars are shares of its frame, {} ms. Published "
-        "figures are of the named console, ours are allowances on it, modelled ones do not exist yet; "
+        "figures are of the named console, ours are allowances on it, modelled ones {}; "
         "none is ever mixed with what was measured here.{}</p>\n",
         html_escaped(table.budget), ms_text(table.frame_ms),
+        report.modelled ? "are computed from counts" : "were not asked for (--cost)",
         report.caps.software ? " This is a software driver: its times are a CPU's, so no console's row "
                                "is judged by them."
                              : "");
@@ -183,6 +185,42 @@ std::string budget_section(const FrameReport& report, const BudgetTable& table, 
     return html;
 }
 
+/// The bar of a modelled time: solid for the central value, past the end of the frame cut and striped.
+std::string modelled_bar(double ms, double frame_ms) {
+    const double percent = 100.0 * ms / frame_ms;
+    return fmt::format("<td class=\"bar\" aria-hidden=\"true\"><div><span{} style=\"width:{:.2f}%\"></span></div></td>",
+                       percent > 100.0 ? " class=\"past\"" : "", std::clamp(percent, 0.3, 100.0));
+}
+
+std::string modelled_section(const FrameReport& report, double frame_ms) {
+    if (!report.modelled) return "";
+    std::string html = "<h3>Modelled devices</h3>\n<p class=\"soft\">" + html_escaped(report.modelled->words) +
+                       fmt::format(" Bars are shares of {} ms; {} arithmetic.</p>\n", ms_text(frame_ms),
+                                   html_escaped(report.modelled->arithmetic));
+    for (const ModelledDevice& device : report.modelled->devices) {
+        html += fmt::format(
+            "<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"{0}\"><table>"
+            "<thead><tr><th scope=\"col\">{0}</th><th scope=\"col\" class=\"number\">ms</th>"
+            "<th scope=\"col\" class=\"number\">band</th><th aria-hidden=\"true\"></th>"
+            "<th scope=\"col\">bound by</th></tr></thead><tbody>\n",
+            html_escaped(device.name));
+        html += "<tr class=\"row\"><th scope=\"row\">frame</th>" + cell(ms_text(device.frame_ms), "number") +
+                cell(ms_text(device.low_ms) + " to " + ms_text(device.high_ms), "number") +
+                modelled_bar(device.frame_ms, frame_ms) +
+                (device.frame_ms > frame_ms ? cell("over by " + ms_text(device.frame_ms - frame_ms) + " ms", "over")
+                                            : cell("within", "within")) +
+                "</tr>\n";
+        for (const ModelledPass& pass : device.passes) {
+            html += "<tr class=\"pass\"><th scope=\"row\">" + html_escaped(pass.pass) + "</th>" +
+                    cell(ms_text(pass.ms), "number") +
+                    cell(ms_text(pass.low_ms) + " to " + ms_text(pass.high_ms), "number") +
+                    modelled_bar(pass.ms, frame_ms) + cell(pass.bound) + "</tr>\n";
+        }
+        html += "</tbody></table></div>\n";
+    }
+    return html;
+}
+
 std::string effects_section(const FramePlan& plan) {
     std::string html = "<h3>Effects, in and out</h3>\n<div class=\"wide\"><table>" +
                        header({{"effect", false}, {"", false}, {"tier", false}, {"why", false}}) + "<tbody>";
@@ -207,6 +245,7 @@ std::string scene_section(const PageScene& scene, std::size_t index) {
         html_escaped(report.scene), report.display.width, report.display.height, base64(png_bytes(report.display)),
         html_escaped(report.picture_file));
     html += budget_section(report, *scene.budget, id);
+    html += modelled_section(report, scene.budget->frame_ms);
     html += effects_section(report.plan);
     html += "<h3>Plan</h3>\n<details><summary>Passes and targets of the frame</summary><pre tabindex=\"0\">" +
             html_escaped(plan_text(report.plan)) + "</pre></details>\n";

@@ -69,6 +69,19 @@ Json measurement_json(const FrameReport& report) {
             {"passes", passes}};
 }
 
+Json modelled_json(const FrameReport& report) {
+    if (!report.modelled) return nullptr;
+    Json devices = Json::array();
+    for (const ModelledDevice& device : report.modelled->devices) {
+        devices.push_back({{"profile", device.name},
+                           {"frame_ms", device.frame_ms},
+                           {"low_ms", device.low_ms},
+                           {"high_ms", device.high_ms},
+                           {"other_arithmetic_ms", device.other_arithmetic_ms}});
+    }
+    return {{"arithmetic", report.modelled->arithmetic}, {"words", report.modelled->words}, {"devices", devices}};
+}
+
 Json census_json(const FrameReport& report) {
     if (!report.census) {
         return nullptr;
@@ -210,9 +223,11 @@ Json budget_json(const BudgetTable& table) {
                          {"ours_ms", optional_number(line.ours_ms)},
                          {"source", line.source},
                          {"note", line.note},
-                         {"modelled_ps3_ms", nullptr},
-                         {"modelled_x360_ms", nullptr},
-                         {"modelled_es2_ms", nullptr},
+                         {"modelled_ps3_ms", optional_number(line.modelled_ms[0])},
+                         {"modelled_x360_ms", optional_number(line.modelled_ms[1])},
+                         {"modelled_es2_ms", optional_number(line.modelled_ms[2])},
+                         {"modelled_bound", line.modelled_bound},
+                         {"modelled_over", line.modelled_over},
                          {"measured", summary_json(line.measured)},
                          {"share_of_frame", optional_number(line.share_of_frame)},
                          {"bytes_written", line.bytes},
@@ -245,6 +260,7 @@ Json report_json(const FrameReport& report, const BudgetTable& table) {
             {"software", report.caps.software},
             {"plan", plan_json(report.plan)},
             {"budget", budget_json(table)},
+            {"modelled", modelled_json(report)},
             {"measurement", measurement_json(report)},
             {"texture_bytes", report.texture_bytes},
             {"prepare_calls", calls_json(report.prepare_calls)},

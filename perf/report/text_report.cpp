@@ -132,6 +132,21 @@ std::string published_text(const BudgetLine& line) {
                                   : ms_text(*line.published_ms);
 }
 
+std::string modelled_text(const BudgetLine& line, int column) {
+    const auto& ms = line.modelled_ms[static_cast<std::size_t>(column)];
+    return ms ? ms_text(*ms) : "-";
+}
+
+std::string modelled_frame_text(const Modelled& modelled) {
+    std::string text = "Modelled frame, " + modelled.arithmetic + " arithmetic:";
+    for (const ModelledDevice& device : modelled.devices) {
+        text += fmt::format(" {} {} ms ({}..{}),", device.name, ms_text(device.frame_ms), ms_text(device.low_ms),
+                            ms_text(device.high_ms));
+    }
+    text.back() = '.';
+    return text + " " + modelled.words;
+}
+
 std::string plan_text(const FramePlan& plan) {
     std::string text = fmt::format("plan of {}: {}\n\n", plan.scene, configuration_text(plan));
     TextTable passes({{"pass"}, {"effect"}, {"reads"}, {"writes"}, {"start"}, {"formats"}, {"B/pixel", Align::right}});
@@ -183,8 +198,8 @@ std::string budget_text(const BudgetTable& table, const FrameReport& report) {
         }
         const BudgetLine& line = table.lines[index];
         rows.add_row({(line.is_pass ? "  " : "") + line.name + sources.mark(line), published_text(line),
-                      line.ours_ms ? ms_text(*line.ours_ms) : "-", "-", "-", "-",
-                      line.measured ? ms_text(line.measured->median_ms) : "-",
+                      line.ours_ms ? ms_text(*line.ours_ms) : "-", modelled_text(line, 0), modelled_text(line, 1),
+                      modelled_text(line, 2), line.measured ? ms_text(line.measured->median_ms) : "-",
                       line.measured ? ms_text(line.measured->low_ms) + ".." + ms_text(line.measured->high_ms) : "-",
                       line.share_of_frame ? fmt::format("{:.1f} %", 100.0 * *line.share_of_frame) : "-",
                       line.bytes > 0 ? bytes_text(line.bytes) : "-", line.verdict_text});
@@ -202,10 +217,11 @@ std::string budget_text(const BudgetTable& table, const FrameReport& report) {
     text +=
         wrapped(
             "All in milliseconds, and columns are never mixed: published is the source's figure on the console named "
-            "there, ours an allowance on that console, ps3, x360 and es2 are modelled (not modelled yet), here is "
-            "this device.",
+            "there, ours an allowance on that console, ps3, x360 and es2 are modelled" +
+                std::string(report.modelled ? "" : " (by --cost, which was not given)") + ", here is this device.",
             kLineWidth, 0) +
         "\n";
+    if (report.modelled) text += wrapped(modelled_frame_text(*report.modelled), kLineWidth, 0) + "\n";
     if (report.caps.software) {
         text += "This is a software driver: its times are a CPU's, so no console's row is judged by them.\n";
     }

@@ -26,6 +26,10 @@ namespace halfframe::perf {
 [[nodiscard]] std::string configuration_text(const FramePlan& plan);
 /// "llvmpipe (LLVM 15.0.6, 256 bits), OpenGL ES 3.2 Mesa 22.3.6, device native".
 [[nodiscard]] std::string driver_text(const gl::Caps& caps);
+/// A modelled figure of a line, or "-".
+[[nodiscard]] std::string modelled_text(const BudgetLine& line, int column);
+/// The modelled frame on every device with its band, and the words that stand under such figures.
+[[nodiscard]] std::string modelled_frame_text(const Modelled& modelled);
 /// The published figure of a line: "1.70", "0.500..1.50" or "-".
 [[nodiscard]] std::string published_text(const BudgetLine& line);
 

@@ -6,9 +6,13 @@
 #include <glslang/Public/ShaderLang.h>
 #include <glslang/SPIRV/GlslangToSpv.h>
 
+#include <map>
+#include <optional>
+#include <set>
 #include <spirv-tools/libspirv.hpp>
 #include <spirv-tools/optimizer.hpp>
 #include <sstream>
+#include <tuple>
 
 #include "engine/error.h"
 
@@ -39,8 +43,10 @@ struct GlslangProcess {
     throw Error(Fault::check, "a shader does not compile to SPIR-V: " + (story.empty() ? log : story));
 }
 
+void start_glslang() { static const GlslangProcess kProcess; }
+
 std::vector<std::uint32_t> spirv_of(const gl::StageText& text, gl::Stage stage) {
-    static const GlslangProcess kProcess;
+    start_glslang();
     const EShLanguage language = stage == gl::Stage::vertex ? EShLangVertex : EShLangFragment;
     glslang::TShader shader(language);
     const char* source = text.text.c_str();
@@ -81,16 +87,112 @@ spvtools::MessageConsumer into(std::string& story) {
     };
 }
 
-void inline_all(std::vector<std::uint32_t>& words) {
-    std::string story;
-    spvtools::Optimizer optimizer(kEnvironment);
-    optimizer.SetMessageConsumer(into(story));
+/// glslang marks no loop: unrolling is asked for by a bit of OpLoopMerge, its third operand.
+void ask_to_unroll(std::vector<std::uint32_t>& words) {
+    constexpr std::size_t kHeaderWords = 5;
+    constexpr std::size_t kLoopControl = 3;
+    for (std::size_t at = kHeaderWords; at < words.size(); at += words[at] >> spv::WordCountShift) {
+        if (static_cast<spv::Op>(words[at] & spv::OpCodeMask) == spv::OpLoopMerge)
+            words.at(at + kLoopControl) |= spv::LoopControlUnrollMask;
+    }
+}
+
+/// The unroller copies instructions and forgets their decorations. What was mediump before is found again by its line,
+/// operation and type; where these do not tell, an operation is mediump when all it reads is, as in GLSL ES.
+class PrecisionMemory {
+public:
+    explicit PrecisionMemory(const Module& before) {
+        each(before, [&](const Instruction& one) { seen_[key(before, one)].insert(one.relaxed); });
+    }
+
+    void restore(Module& after) const {
+        for (bool changed = true; changed;) {
+            changed = false;
+            for (Function& function : after.functions) {
+                for (Block& block : function.blocks) {
+                    for (Instruction& one : block.instructions) {
+                        if (one.result == 0 || one.relaxed || !was_relaxed(after, one)) continue;
+                        one.relaxed = true;
+                        after.relaxed.at(one.result) = true;
+                        changed = true;
+                    }
+                }
+            }
+        }
+    }
+
+private:
+    using Key = std::tuple<std::uint32_t, spv::Op, std::uint32_t, std::uint32_t>;
+
+    template <typename Use>
+    static void each(const Module& module, Use use) {
+        for (const Function& function : module.functions) {
+            for (const Block& block : function.blocks) {
+                for (const Instruction& one : block.instructions)
+                    if (one.result != 0 && one.type != 0) use(one);
+            }
+        }
+    }
+
+    static Key key(const Module& module, const Instruction& one) {
+        const std::uint32_t function = one.op == spv::OpExtInst ? one.operands.at(1) : 0;
+        return {one.line, one.op, function, module.type(one.type).scalars};
+    }
+
+    bool was_relaxed(const Module& after, const Instruction& one) const {
+        const auto found = seen_.find(key(after, one));
+        if (found != seen_.end() && found->second.size() == 1) return *found->second.begin();
+        if (one.op == spv::OpLoad || after.type(one.type).kind == Type::Kind::pointer) return false;
+        bool any = false;
+        for (std::size_t i = one.op == spv::OpExtInst ? 2 : 0; i < one.operands.size(); ++i) {
+            const Id operand = one.operands[i];
+            if (operand >= after.bound || after.constants.contains(operand)) continue;
+            if (!after.relaxed[operand]) return false;
+            any = true;
+        }
+        return any;
+    }
+
+    std::map<Key, std::set<bool>> seen_;
+};
+
+void register_inlining(spvtools::Optimizer& optimizer) {
     optimizer.RegisterPass(spvtools::CreateInlineExhaustivePass())
         .RegisterPass(spvtools::CreateEliminateDeadFunctionsPass())
         .RegisterPass(spvtools::CreateScalarReplacementPass())
         .RegisterPass(spvtools::CreateLocalAccessChainConvertPass())
         .RegisterPass(spvtools::CreateSSARewritePass())
         .RegisterPass(spvtools::CreateAggressiveDCEPass());
+}
+
+/// Inlining leaves out functions that return from inside a loop: these are given one return first.
+void register_one_return(spvtools::Optimizer& optimizer) { optimizer.RegisterPass(spvtools::CreateMergeReturnPass()); }
+
+/// Twice: unrolling turns indices into constants, and only then can arrays be taken apart and branches be decided.
+void register_optimising(spvtools::Optimizer& optimizer) {
+    for (int round = 0; round < 2; ++round) {
+        optimizer.RegisterPass(spvtools::CreateCCPPass())
+            .RegisterPass(spvtools::CreateLoopUnrollPass(true))
+            .RegisterPass(spvtools::CreateDeadBranchElimPass())
+            .RegisterPass(spvtools::CreateScalarReplacementPass())
+            .RegisterPass(spvtools::CreateLocalAccessChainConvertPass())
+            .RegisterPass(spvtools::CreateSSARewritePass())
+            .RegisterPass(spvtools::CreateCCPPass())
+            .RegisterPass(spvtools::CreateSimplificationPass())
+            .RegisterPass(spvtools::CreateIfConversionPass())
+            .RegisterPass(spvtools::CreateSimplificationPass())
+            .RegisterPass(spvtools::CreateRedundancyEliminationPass())
+            .RegisterPass(spvtools::CreateDeadBranchElimPass())
+            .RegisterPass(spvtools::CreateBlockMergePass())
+            .RegisterPass(spvtools::CreateAggressiveDCEPass());
+    }
+}
+
+void run(void (*register_passes)(spvtools::Optimizer&), std::vector<std::uint32_t>& words) {
+    std::string story;
+    spvtools::Optimizer optimizer(kEnvironment);
+    optimizer.SetMessageConsumer(into(story));
+    register_passes(optimizer);
     std::vector<std::uint32_t> cleaned;
     expect(optimizer.Run(words.data(), words.size(), &cleaned), [&] { return "SPIRV-Tools gave up: " + story; });
     words = std::move(cleaned);
@@ -98,14 +200,38 @@ void inline_all(std::vector<std::uint32_t>& words) {
 
 }  // namespace
 
+std::string compiler_versions() {
+    const glslang::Version version = glslang::GetVersion();
+    return fmt::format("glslang {}.{}.{}, SPIRV-Tools {}", version.major, version.minor, version.patch,
+                       spvSoftwareVersionString());
+}
+
+void check_es100(const gl::StageText& text) {
+    start_glslang();
+    glslang::TShader shader(EShLangFragment);
+    const char* source = text.text.c_str();
+    shader.setStrings(&source, 1);
+    if (!shader.parse(GetDefaultResources(), 100, EEsProfile, false, false, EShMsgDefault))
+        refuse(shader.getInfoLog(), text);
+}
+
 Module compile(const gl::StageText& text, gl::Stage stage, Cleaning cleaning) {
     std::vector<std::uint32_t> words = spirv_of(text, stage);
-    if (cleaning == Cleaning::inlined) inline_all(words);
+    if (cleaning == Cleaning::optimised) run(register_one_return, words);
+    if (cleaning != Cleaning::none) run(register_inlining, words);
+    std::optional<PrecisionMemory> memory;
+    if (cleaning == Cleaning::optimised) {
+        memory.emplace(parse(words, text.files));
+        ask_to_unroll(words);
+        run(register_optimising, words);
+    }
     std::string story;
     spvtools::SpirvTools tools(kEnvironment);
     tools.SetMessageConsumer(into(story));
     expect(tools.Validate(words), [&] { return "SPIR-V that is not valid: " + story; });
-    return parse(std::move(words), text.files);
+    Module module = parse(std::move(words), text.files);
+    if (memory) memory->restore(module);
+    return module;
 }
 
 Module compile(const gl::ProgramDescription& description, gl::Stage stage, Cleaning cleaning,

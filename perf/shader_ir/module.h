@@ -39,6 +39,8 @@ struct Type {
     spv::StorageClass storage = spv::StorageClassMax;  ///< of pointers
     std::uint32_t coordinates = 0;                     ///< of samplers: how many numbers say where, the layer included
     std::uint32_t directions = 0;                      ///< of samplers: the same without the layer
+    spv::Dim dimension = spv::Dim2D;                   ///< of samplers
+    bool compares = false;                             ///< of samplers: answers a comparison with a depth
 };
 
 /// `operands` are the words after the result: ids and literals, as the SPIR-V specification lists them.

@@ -176,6 +176,8 @@ private:
         const auto dimension = static_cast<spv::Dim>(one.operands.at(1));
         type.directions = dimension == spv::Dim1D ? 1 : dimension == spv::Dim2D ? 2 : 3;
         type.coordinates = type.directions + (one.operands.at(3) != 0 ? 1 : 0);
+        type.dimension = dimension;
+        type.compares = one.operands.at(2) == 1;
         return type;
     }
 

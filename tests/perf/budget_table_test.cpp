@@ -168,9 +168,38 @@ TEST(BudgetText, keeps_the_columns_of_the_model_and_names_the_sources) {
     const FrameReport report = sample_report(true);
     const std::string text = budget_text(budget_table(report, sample_budget(), false), report);
     for (const char* expected : {"published", "ours", "ps3", "x360", "es2", "here", "verdict", "[2] PS3: a talk",
-                                 "not modelled yet", "not built"}) {
+                                 "(by --cost,", "not built"}) {
         EXPECT_NE(text.find(expected), std::string::npos) << expected << " is missing in\n" << text;
     }
+}
+
+TEST(BudgetTable, modelled_figures_stand_in_their_columns_and_say_what_binds) {
+    FrameReport report = sample_report(true);
+    Budget budget = sample_budget();
+    budget.rows[0].platforms = "PS3";  // Xbox 360 is dearer, and not what the row speaks of
+    report.modelled = Modelled{.arithmetic = "half", .words = "Modelled, not measured.", .devices = {}};
+    const std::string effect(all_effects().front()->name);
+    for (const auto& [device, ms] : {std::pair{"ps3", 2.25}, std::pair{"x360", 9.0}}) {
+        report.modelled->devices.push_back({.name = device,
+                                            .frame_ms = ms,
+                                            .low_ms = ms,
+                                            .high_ms = ms,
+                                            .passes = {{"sample_pass", ms + 1.0, ms, ms, "memory"}},
+                                            .effects = {{effect, ms, "shader"}}});
+    }
+    const BudgetTable table = budget_table(report, budget, false);
+    const BudgetLine& row = line_named(table, first_row());
+    EXPECT_EQ(row.modelled_ms[0], 2.25);
+    EXPECT_EQ(row.modelled_ms[1], 9.0);
+    EXPECT_FALSE(row.modelled_ms[2].has_value());
+    EXPECT_EQ(row.modelled_over, "modelled ps3 over by 0.250 ms: shader");
+    EXPECT_EQ(row.verdict, Verdict::not_judged);  // a model fails nothing
+    EXPECT_EQ(row.measured->median_ms, 5.0);
+    EXPECT_EQ(line_named(table, "sample_pass").modelled_ms[0], 3.25);
+    EXPECT_EQ(line_named(table, "sample_pass").modelled_bound[0], "memory");
+    const std::string text = budget_text(table, report);
+    EXPECT_NE(text.find("Modelled frame, half arithmetic: ps3 2.25 ms"), std::string::npos) << text;
+    EXPECT_EQ(text.find("--cost"), std::string::npos) << text;
 }
 
 TEST(BudgetText, a_pass_that_repeats_its_row_is_left_out_for_people) {

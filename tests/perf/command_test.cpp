@@ -137,7 +137,7 @@ TEST(Usage, help_explains_every_option_and_the_exit_codes) {
     const std::vector<std::pair<std::string, std::vector<std::string>>> commands{
         {"render", {"--output", "--size",  "--tier",   "--arithmetic", "--storage", "--context", "--device",
                     "--camera", "--eye",   "--target", "--fov-y",      "--set",     "--measure", "--budget",
-                    "--census", "--cache", "--json",   "--trace",      "--ledger",  "--html"}},
+                    "--census", "--cache", "--json",   "--trace",      "--ledger",  "--html",    "--cost"}},
         {"report", {"--output", "--size", "--tier", "--measure", "--budget", "--json"}},
         {"plan", {"--size", "--tier", "--device", "--json"}},
         {"info", {"--context", "--device", "--json"}},
@@ -145,7 +145,8 @@ TEST(Usage, help_explains_every_option_and_the_exit_codes) {
         {"scenes", {"--json"}},
         {"accuracy", {"--json"}},
         {"check", {"--thresholds", "--strict", "--json", "--sarif", "--picture", "--font", "--device", "--size"}},
-        {"contact-sheet", {"--output", "--cell", "--columns", "--tier", "--device", "--measure", "--limit", "--font"}}};
+        {"contact-sheet", {"--output", "--cell", "--columns", "--tier", "--device", "--measure", "--limit", "--font"}},
+        {"cost", {"--size", "--tier", "--profile", "--why", "--texture", "--into", "--json", "--csv", "--trace"}}};
     for (const auto& [command, options] : commands) {
         const ChildResult help = halfframe({command, "--help"});
         EXPECT_EQ(help.code, 0) << command;

@@ -28,10 +28,13 @@ void expect_function(const std::string& text, Wanted wanted) {
         "#version 300 es\nprecision highp float;\nprecision highp int;\nin float x;\nout float y;\n" + text +
             "void main() { y = f(x); }\n",
         {"<test>"}};
-    const Module cleaned = compile(stage, gl::Stage::fragment, Cleaning::inlined);
-    const Evaluation run =
-        evaluate(cleaned, "main", {}, Model::in_double, {.variables = {{"x", {counting()}}}, .samplers = {}});
-    for (std::size_t i = 0; i < kLanes; ++i) ASSERT_EQ(run.outputs.at("y")[0][i], found[0][i]) << i << " cleaned";
+    for (const Cleaning cleaning : {Cleaning::inlined, Cleaning::optimised}) {
+        const Module cleaned = compile(stage, gl::Stage::fragment, cleaning);
+        const Evaluation run =
+            evaluate(cleaned, "main", {}, Model::in_double, {.variables = {{"x", {counting()}}}, .samplers = {}});
+        for (std::size_t i = 0; i < kLanes; ++i)
+            ASSERT_EQ(run.outputs.at("y")[0][i], found[0][i]) << i << " cleaned " << static_cast<int>(cleaning);
+    }
 }
 
 TEST(ControlFlow, IfElseChains) {

@@ -1,0 +1,83 @@
+// Counts every program of every card.
+#include "perf/cost/effect_table.h"
+
+#include <sstream>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "engine/frame/effect_card.h"
+#include "perf/cost/counted_frame.h"
+#include "perf/cost/model.h"
+#include "perf/shader_ir/compile.h"
+
+namespace halfframe::cost {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::vector<std::string_view> words_of(std::string_view words) {
+    std::vector<std::string_view> list;
+    while (!words.empty()) {
+        const std::size_t end = std::min(words.find(' '), words.size());
+        list.push_back(words.substr(0, end));
+        words.remove_prefix(std::min(end + 1, words.size()));
+    }
+    return list;
+}
+
+Json counts_json(const ShaderCounts& counts, const Profile& ps3) {
+    FragmentWork fragment{.work = counts.weighted.work};
+    for (const double count : counts.weighted.fetches) fragment.fetches.push_back({.count = count});
+    return {{"rsx_passes", rsx_passes(fragment, ps3, ps3.at("packing_efficiency"))},
+            {"slots", counts.weighted.work.slots},
+            {"half_normalizes", counts.weighted.work.normalizes},
+            {"fetches", counts.weighted.fetch_count()},
+            {"xenos_instructions", co_issued(counts.weighted.work)},
+            {"multiply_adds", counts.weighted.work.mads},
+            {"full_temporaries", counts.temporaries.full},
+            {"half_temporaries", counts.temporaries.half},
+            {"branches", counts.branches}};
+}
+
+}  // namespace
+
+std::string effect_table_text() {
+    const Profile ps3 = load_profile("ps3");
+    ShaderLibrary library;
+    Json rows = Json::array();
+    for (const EffectCard* card : all_effects()) {
+        for (int tier = 0; tier < kTierCount; ++tier) {
+            for (const ShaderVariant& variant : card->tiers[static_cast<std::size_t>(tier)].shaders) {
+                for (const gl::Arithmetic arithmetic : {gl::Arithmetic::half, gl::Arithmetic::full}) {
+                    for (const bool all : {false, true}) {
+                        const std::vector<std::string_view> defines =
+                            all ? words_of(variant.defines) : std::vector<std::string_view>{};
+                        if (all && defines.empty()) continue;
+                        const gl::ProgramDescription description =
+                            describe_variant(*card, variant, static_cast<Tier>(tier), arithmetic, true, defines);
+                        Json row{{"effect", card->name},
+                                 {"tier", halfframe::name(static_cast<Tier>(tier))},
+                                 {"fragment", variant.fragment},
+                                 {"arithmetic", halfframe::name(arithmetic)},
+                                 {"defines", all ? "all" : "none"}};
+                        row.update(
+                            counts_json(library.stage(description, gl::Stage::fragment, arithmetic).counts, ps3));
+                        rows.push_back(std::move(row));
+                    }
+                }
+            }
+        }
+    }
+    // One row a line, so that a change of one shader is a change of a few lines.
+    std::ostringstream text;
+    text << "{\n  \"model_version\": " << kModelVersion
+         << ",\n  \"compiler\": " << Json(shader_ir::compiler_versions()).dump() << ",\n  \"rows\": [\n";
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        text << "    " << rows[i].dump() << (i + 1 < rows.size() ? ",\n" : "\n");
+    text << "  ]\n}\n";
+    return text.str();
+}
+
+}  // namespace halfframe::cost

@@ -1,0 +1,167 @@
+// Brings a user's shader to the form that is counted.
+#include "perf/cost/user_shader.h"
+
+#include <algorithm>
+#include <regex>
+
+#include <fmt/format.h>
+
+#include "content/nearest.h"
+#include "engine/error.h"
+#include "perf/shader_ir/compile.h"
+
+namespace halfframe::cost {
+namespace {
+
+/// The words of ES 1.00 that ES 3.00 spells otherwise.
+constexpr const char* kTwin =
+    "#define varying in\n"
+    "#define attribute in\n"
+    "#define texture2D texture\n"
+    "#define texture2DProj textureProj\n"
+    "#define texture2DLod textureLod\n"
+    "#define texture2DLodEXT textureLod\n"
+    "#define texture2DProjLodEXT textureProjLod\n"
+    "#define texture2DGradEXT textureGrad\n"
+    "#define textureCube texture\n"
+    "#define textureCubeLod textureLod\n"
+    "#define textureCubeLodEXT textureLod\n"
+    "#define textureCubeGradEXT textureGrad\n"
+    "#define gl_FragColor halfframe_fragment_color\n"
+    "#define gl_FragDepthEXT gl_FragDepth\n"
+    "out mediump vec4 halfframe_fragment_color;\n";
+
+constexpr const char* kTwinOfData =
+    "#define gl_FragData halfframe_fragment_data\n"
+    "out mediump vec4 halfframe_fragment_data[4];\n";
+
+struct Versioned {
+    int version = 100;
+    std::string text;  ///< with the #version line emptied, so that lines keep their numbers
+};
+
+Versioned versioned(const std::string& file, const std::string& text) {
+    const std::regex pattern(R"((^|\n)[ \t]*#[ \t]*version[ \t]+(\d+)([^\n]*))");
+    std::smatch found;
+    if (!std::regex_search(text, found, pattern)) return {100, text};
+    const std::string number = found[2].str();
+    const std::string rest = text.substr(0, static_cast<std::size_t>(found.position(0))) + found[1].str() +
+                             text.substr(static_cast<std::size_t>(found.position(0) + found.length(0)));
+    const bool es = found[3].str().find("es") != std::string::npos;
+    if (number == "100") return {100, rest};
+    if (es && (number == "300" || number == "310")) return {300, rest};
+    throw Error(Fault::input, fmt::format("{}: #version {}{} is not counted; write 100, 300 es or 310 es", file, number,
+                                          found[3].str()));
+}
+
+const char* precision_words(Precisions precisions) {
+    switch (precisions) {
+        case Precisions::as_written: return "";
+        case Precisions::half: return "#define highp mediump\n";
+        // Samplers are lowp where nothing is said, and what they give with them.
+        case Precisions::full:
+            return "#define mediump highp\n#define lowp highp\nprecision highp sampler2D;\nprecision highp "
+                   "samplerCube;\n";
+    }
+    return "";
+}
+
+constexpr std::array<std::pair<const char*, gl::PixelFormat>, 5> kFormats{{{"rgba8", gl::PixelFormat::rgba8},
+                                                                           {"rgb10_a2", gl::PixelFormat::rgb10_a2},
+                                                                           {"r11g11b10f", gl::PixelFormat::r11g11b10f},
+                                                                           {"rgba16f", gl::PixelFormat::rgba16f},
+                                                                           {"rgba32f", gl::PixelFormat::rgba32f}}};
+
+}  // namespace
+
+const char* name(Precisions precisions) {
+    switch (precisions) {
+        case Precisions::as_written: return "as written";
+        case Precisions::half: return "half";
+        case Precisions::full: return "full";
+    }
+    return "";
+}
+
+CountedStage count_user_shader(const std::string& file, const std::string& text, Precisions precisions) {
+    const Versioned shader = versioned(file, text);
+    const bool old = shader.version == 100;
+    if (old) shader_ir::check_es100({.text = "#version 100\n#line 1 0\n" + shader.text, .files = {file}});
+    gl::StageText stage{.text = "#version 300 es\n", .files = {file}};
+    stage.text += precision_words(precisions);
+    if (old) {
+        stage.text += kTwin;
+        if (shader.text.find("gl_FragData") != std::string::npos) stage.text += kTwinOfData;
+    }
+    stage.text += "#line 1 0\n" + shader.text;
+    CountedStage counted{.module = shader_ir::compile(stage, gl::Stage::fragment, shader_ir::Cleaning::optimised)};
+    counted.module.up_converted = old;
+    counted.counts = count_shader(counted.module);
+    return counted;
+}
+
+gl::PixelFormat parse_color_format(const std::string& words, const std::string& option) {
+    std::vector<std::string> names;
+    for (const auto& [format_name, format] : kFormats) {
+        if (words == format_name) return format;
+        names.emplace_back(format_name);
+    }
+    throw Error(Fault::usage,
+                fmt::format("{}: unknown format '{}'{} There are rgba8, rgb10_a2, r11g11b10f, rgba16f, rgba32f", option,
+                            words, content::did_you_mean(words, names)));
+}
+
+UserTexture parse_user_texture(const std::string& words) {
+    const std::size_t equals = words.find('=');
+    if (equals == std::string::npos || equals == 0)
+        throw Error(Fault::usage, fmt::format("--texture {}: write NAME=FORMAT, for example image=rgba16f", words));
+    UserTexture texture{.sampler = words.substr(0, equals)};
+    std::string format = words.substr(equals + 1);
+    if (const std::size_t comma = format.find(','); comma != std::string::npos) {
+        if (format.substr(comma + 1) != "trilinear")
+            throw Error(Fault::usage, fmt::format("--texture {}: behind the comma only trilinear is known", words));
+        texture.trilinear = true;
+        format.resize(comma);
+    }
+    texture.format = parse_color_format(format, "--texture " + words);
+    return texture;
+}
+
+PassWork user_pass(const ShaderCounts& counts, const std::vector<UserTexture>& textures, const TargetWork& target) {
+    std::vector<std::string> read;
+    for (const SamplerUse& use : counts.samplers) read.push_back(use.name);
+    for (const UserTexture& texture : textures) {
+        if (std::ranges::find(read, texture.sampler) != read.end()) continue;
+        std::string list;
+        for (const std::string& one : read) list += (list.empty() ? "" : ", ") + one;
+        throw Error(Fault::usage,
+                    fmt::format("--texture {}: the shader reads no such sampler{} It reads {}", texture.sampler,
+                                content::did_you_mean(texture.sampler, read), list.empty() ? "none" : list));
+    }
+    DrawWork draw{.fragments_shaded = target.pixels(),
+                  .fragments_written = target.pixels(),
+                  .vertices = 3,
+                  .triangles = 1,
+                  .temporaries = counts.temporaries};
+    PassWork pass{.name = "shader", .color = target};
+    const std::array paths{&counts.weighted, &counts.shortest, &counts.longest};
+    for (std::size_t way = 0; way < paths.size(); ++way) {
+        draw.fragment[way].work = paths[way]->work;
+        for (std::size_t i = 0; i < counts.samplers.size(); ++i) {
+            const auto named = std::ranges::find(textures, counts.samplers[i].name, &UserTexture::sampler);
+            const UserTexture texture = named != textures.end() ? *named : UserTexture{};
+            draw.fragment[way].fetches.push_back({.count = paths[way]->fetches[i],
+                                                  .format = texel_format(texture.format),
+                                                  .shape = counts.samplers[i].shape,
+                                                  .trilinear = texture.trilinear});
+            // As large as the target: read at most once as a whole.
+            if (way == 0)
+                pass.texture_bytes +=
+                    target.pixels() * std::min(1.0, paths[way]->fetches[i]) * gl::bytes_per_pixel(texture.format);
+        }
+    }
+    pass.draws = {draw};
+    return pass;
+}
+
+}  // namespace halfframe::cost

@@ -111,6 +111,7 @@ void FloorWork::draw(Renderer& renderer, const View& view, int) {
         renderer.set_cull(!material.double_sided);
         for (const auto& [unit, texture] : draw.textures) renderer.bind_texture(unit, texture);
         renderer.gl().Uniform4fv(draw.base_color, 1, &material.base_color.x);
+        const DrawMesh& mesh = renderer.mesh(surface.mesh);
         const glm::mat4 stored = from_stored(clip, mesh.storage);
         renderer.gl().UniformMatrix4fv(draw.clip_from_local, 1, GL_FALSE, &stored[0][0]);
         if (draw.uv_range >= 0) renderer.gl().Uniform4fv(draw.uv_range, 1, &mesh.storage.uv_range.x);

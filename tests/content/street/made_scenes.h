@@ -19,7 +19,7 @@ constexpr std::array<std::uint32_t, 3> kSeeds{2084, 1, 4294967295u};
 inline const Scene& made(const std::string& name, std::uint32_t seed = 2084) {
     static std::map<std::pair<std::string, std::uint32_t>, Scene> scenes;
     const auto [found, is_new] = scenes.try_emplace({name, seed});
-    if (is_new) found->second = content::open_scene(name, seed);
+    if (is_new) found->second = content::open_scene(name, {.seed = seed});
     return found->second;
 }
 

@@ -117,8 +117,9 @@ TEST(MadeScenes, FewSurfacesAreReachedByMoreLampsThanAreDrawn) {
     for (const Surface& surface : scene.surfaces) {
         if (material_of(scene, surface).model == MaterialModel::unlit) continue;
         int left_out = 0;
-        (void)lights_reaching(scene, world_box(local_box(mesh_of(scene, surface)), surface.world_from_local), 8,
-                              left_out);
+        std::vector<int> lights;
+        lights_reaching(scene, world_box(local_box(mesh_of(scene, surface)), surface.world_from_local), 8, lights,
+                        left_out);
         if (left_out > 0) ++crowded;
         if (left_out > most) {
             most = left_out;

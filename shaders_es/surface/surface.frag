@@ -64,6 +64,7 @@ uniform FULL vec4 light_size[LIGHT_SLOTS];  // FULL: metres squared; x radius [m
 
 //@insert_functions
 
+//@not_run it reads a texture; what it computes is linear_from_srgb
 vec3 color_texel(HALF sampler2D image) {
 #ifdef TIER_LOW
     return linear_from_srgb(sample_2d(image, vertex_uv).rgb);  // ES 2.0 has no sRGB textures

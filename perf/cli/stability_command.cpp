@@ -12,12 +12,12 @@
 
 #include "engine/error.h"
 #include "perf/accuracy/lane_canvas.h"
-#include "perf/cli/cache_folder.h"
 #include "perf/cli/command.h"
 #include "perf/cli/graphics_device.h"
 #include "perf/cli/spelling.h"
 #include "perf/cli/terminal.h"
 #include "perf/report/atomic_file.h"
+#include "perf/stability/argument_census.h"
 #include "perf/stability/ledger.h"
 #include "perf/stability/stability_report.h"
 
@@ -54,14 +54,17 @@ public:
             ->type_name("TEXT");
         command.add_flag("--full", full_,
                          "A million combinations of hard cases a function instead of 16384, and 262144 inputs drawn "
-                         "instead of 8192; goes on where it was interrupted");
+                         "instead of 8192");
+        command.add_flag(
+            "--arguments", arguments_,
+            "Instead, draw every built-in scene and record which arguments functions get there; one outside "
+            "its declared domain is exit code 1");
         command.add_flag("--json", json_, "Standard output is one JSON value");
         command.add_option("--html", html_, "Also write a page that stands alone")->type_name("FILE");
-        command.add_option("--ledger", ledger_, "Compare the worst inputs with this ledger; differences are exit code 1")
+        command
+            .add_option("--ledger", ledger_, "Compare the worst inputs with this ledger; differences are exit code 1")
             ->type_name("FILE");
         command.add_option("--write-ledger", write_ledger_, "Write the ledger of the worst inputs")->type_name("FILE");
-        command.add_option("--cache", cache_, "Folder for what --full has done; none: nothing is kept")
-            ->type_name("FOLDER");
         add_device_options(command, device_);
         command.footer(kExitCodes);
     }
@@ -70,6 +73,7 @@ public:
 
     int run() override {
         refuse_contradictions();
+        if (arguments_) return show_arguments();
         stability::StabilityReport report;
         choose(report);
         std::optional<GraphicsDevice> device;
@@ -90,14 +94,38 @@ public:
 private:
     [[nodiscard]] bool own_file() const { return wanted_.size() == 1 && wanted_[0].ends_with(".glsl"); }
 
+    int show_arguments() const {
+        GraphicsDevice device(device_);
+        if (!device.caps().renders[static_cast<std::size_t>(gl::PixelFormat::rgba32f)]) {
+            throw Error(Fault::usage,
+                        fmt::format("arguments are recorded in RGBA32F targets, which {} does not render; "
+                                    "leave --device out or try another --context",
+                                    device.caps().renderer));
+        }
+        Progress progress;
+        const auto seen = stability::see_arguments(device.gl(), device.caps(), [&](const std::string& what) {
+            stop_if_interrupted();
+            progress.show(what);
+        });
+        progress.clear();
+        print(stability::arguments_text(seen));
+        const std::vector<std::string> violations = stability::violations_of(seen);
+        for (const std::string& one : violations) print(one + "\n");
+        return violations.empty() ? 0 : static_cast<int>(Fault::check);
+    }
+
     void refuse_contradictions() const {
+        if (arguments_ && (!wanted_.empty() || full_ || json_ || !(html_ + ledger_ + write_ledger_).empty()))
+            throw Error(Fault::usage,
+                        "--arguments draws scenes and searches nothing: it goes with --context and --device only");
         if (!own_file() && !(function_.empty() && domain_.empty()))
             throw Error(Fault::usage, "--function and --domain are for a .glsl file of your own; name one");
         if (!domain_.empty() && function_.empty())
             throw Error(Fault::usage, "--domain needs --function: it says over which inputs that one is tried");
         if (!(ledger_.empty() && write_ledger_.empty()) && (full_ || !wanted_.empty()))
-            throw Error(Fault::usage, "the ledger holds what the fast search finds in all of shaders_es; leave out "
-                                      "--full and the names");
+            throw Error(Fault::usage,
+                        "the ledger holds what the fast search finds in all of shaders_es; leave out "
+                        "--full and the names");
         for (const std::string& path : {html_, write_ledger_}) {
             if (!path.empty()) perf::expect_can_write(path);
         }
@@ -200,8 +228,9 @@ private:
     }
 
     std::vector<std::string> wanted_;
-    std::string function_, domain_, html_, ledger_, write_ledger_, cache_;
+    std::string function_, domain_, html_, ledger_, write_ledger_;
     bool full_ = false;
+    bool arguments_ = false;
     bool json_ = false;
     DeviceOptions device_;
     std::string text_;

@@ -85,8 +85,8 @@ Allowed allowed_errors(const Subject& subject, const Batch& batch, Model model) 
                 add_difference(allowed.truth, subject.run(moved, Model::in_double), largest);
                 if (jumps.empty()) continue;
                 for (std::size_t lane = 0; lane < batch.lanes(); ++lane)
-                    moved.inputs[p][s][lane] = shifted(batch.inputs[p][s][lane], kConditionFactor * direction,
-                                                       function.parameters[p], model);
+                    moved.inputs[p][s][lane] =
+                        shifted(batch.inputs[p][s][lane], kConditionFactor * direction, function.parameters[p], model);
                 mark_jumps(jumps, subject.jumps(moved), allowed.near_jump);
             }
             moved.inputs[p][s] = batch.inputs[p][s];

@@ -24,9 +24,9 @@ inline constexpr double kResultSteps = 2.0;
 [[nodiscard]] double step_at(double x, Format format, bool full);
 
 struct Allowed {
-    shader_ir::Columns truth;             ///< the function in double
-    shader_ir::Columns error;             ///< allowed, per scalar and lane
-    std::vector<bool> near_jump;          ///< an input's rounding may carry a lane over a declared jump
+    shader_ir::Columns truth;     ///< the function in double
+    shader_ir::Columns error;     ///< allowed, per scalar and lane
+    std::vector<bool> near_jump;  ///< an input's rounding may carry a lane over a declared jump
 };
 
 /// The criterion over a batch: 4 times the sum, over all components of the inputs, of what half a step of that

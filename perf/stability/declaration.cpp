@@ -95,9 +95,9 @@ Exemption exemption_of(const Declaration& function, const std::string& text) {
     static const std::regex kForm(R"(^([a-z_, ]+): (?:at most ([0-9.]+) times|within ([^;]+)); (.+)$)");
     std::smatch found;
     if (!std::regex_match(text, found, kForm))
-        refuse(function, "'" + text + "' is not 'MODEL, MODEL: at most N times; reason' or '...: within ERROR; reason'");
-    Exemption exemption{
-        .models = {}, .at_most = 1.0, .within = trimmed(found[3].str()), .reason = found[4]};
+        refuse(function,
+               "'" + text + "' is not 'MODEL, MODEL: at most N times; reason' or '...: within ERROR; reason'");
+    Exemption exemption{.models = {}, .at_most = 1.0, .within = trimmed(found[3].str()), .reason = found[4]};
     if (exemption.within.empty()) exemption.at_most = number_of(function, found[2]);
     for (const std::string& wanted : split(found[1].str(), ',')) {
         const auto model = std::ranges::find_if(shader_ir::kModels,
@@ -220,8 +220,8 @@ std::string gap_in(const Declaration& function) {
         if (!parameter.handed_in || parameter.components == 0)
             return subject + "has the parameter '" + parameter.text + "', which cannot be given, and no //@not_run";
         if (parameter.domain.kind == Domain::Kind::missing)
-            return subject + "says nothing of its parameter '" + parameter.name +
-                   "'; write a line such as //@domain " + parameter.name + ": 0..1 above it";
+            return subject + "says nothing of its parameter '" + parameter.name + "'; write a line such as //@domain " +
+                   parameter.name + ": 0..1 above it";
     }
     return function.parameters.empty() ? subject + "has no parameters, and no //@not_run says why" : std::string{};
 }

@@ -26,10 +26,10 @@ struct Domain {
 
 struct DeclaredParameter {
     std::string name;
-    std::string text;    ///< as in the signature: "FULL vec3 n"
-    std::string type;    ///< "vec3"
-    int components = 0;  ///< 1..4; 0: no float or vector
-    bool full = false;   ///< FULL or highp
+    std::string text;       ///< as in the signature: "FULL vec3 n"
+    std::string type;       ///< "vec3"
+    int components = 0;     ///< 1..4; 0: no float or vector
+    bool full = false;      ///< FULL or highp
     bool handed_in = true;  ///< false: out or inout
     Domain domain;
 };

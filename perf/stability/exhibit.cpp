@@ -26,7 +26,8 @@ Declaration declared(const char* file, const char* name, std::span<const gl::Sha
 Picture drawn(const ExhibitEntry& entry, const char* function, std::span<const gl::ShaderFile> files) {
     constexpr int kWidth = 192, kHeight = 108;
     const shader_ir::Module module = shader_ir::compile(
-        shader_ir::FunctionFiles{.paths = {"common/maths.glsl", entry.file}, .defines = {{"TIER_CONSOLE", "1"}}}, files);
+        shader_ir::FunctionFiles{.paths = {"common/maths.glsl", entry.file}, .defines = {{"TIER_CONSOLE", "1"}}},
+        files);
     std::vector<shader_ir::Columns> inputs(1, shader_ir::Columns(2));
     for (int y = 0; y < kHeight; ++y) {
         for (int x = 0; x < kWidth; ++x) {
@@ -34,8 +35,7 @@ Picture drawn(const ExhibitEntry& entry, const char* function, std::span<const g
             inputs[0][1].push_back(1.0 - (y + 0.5) / kHeight);
         }
     }
-    const shader_ir::Columns color =
-        shader_ir::evaluate(module, function, inputs, shader_ir::Model::half).returned;
+    const shader_ir::Columns color = shader_ir::evaluate(module, function, inputs, shader_ir::Model::half).returned;
     Picture picture{.width = kWidth, .height = kHeight, .rgba = {}};
     for (std::size_t pixel = 0; pixel < color[0].size(); ++pixel) {
         for (const std::vector<double>& channel : color) {

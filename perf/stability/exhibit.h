@@ -13,23 +13,23 @@ namespace halfframe::stability {
 /// The texts of perf/stability/exhibit, each "exhibit/NAME.glsl".
 [[nodiscard]] std::span<const gl::ShaderFile> exhibit_files();
 
-/// One listing. Its file holds `printed()` and `picture_printed()`, and `picture_mended()`, which draws the same with the
-/// form that holds.
+/// One listing. Its file holds `printed()` and `picture_printed()`, and `picture_mended()`, which draws the same with
+/// the form that holds.
 struct ExhibitEntry {
-    const char* name;      ///< of the planted fault, "dot and pow lobe"
-    const char* file;      ///< "exhibit/lobe.glsl"
-    const char* printed;   ///< the function as printed
+    const char* name;     ///< of the planted fault, "dot and pow lobe"
+    const char* file;     ///< "exhibit/lobe.glsl"
+    const char* printed;  ///< the function as printed
     const char* mended_file;
-    const char* mended;  ///< the function that holds
-    const char* breaks;    ///< in words: which inputs, and why
-    const char* shipped;   ///< where halfframe has the form that holds, or why it has none yet
+    const char* mended;   ///< the function that holds
+    const char* breaks;   ///< in words: which inputs, and why
+    const char* shipped;  ///< where halfframe has the form that holds, or why it has none yet
 };
 
 struct ExhibitResult {
     ExhibitEntry entry;
     FunctionStability printed;
     FunctionStability mended;
-    bool found = false;  ///< the printed form is refused, with its file and line; the mended one is not
+    bool found = false;       ///< the printed form is refused, with its file and line; the mended one is not
     Picture picture_printed;  ///< in half
     Picture picture_mended;
 };

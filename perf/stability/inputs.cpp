@@ -37,9 +37,9 @@ void sort_and_unite(std::vector<double>& values) {
         return a < b || (a == b && std::signbit(a) && !std::signbit(b));
     };
     std::ranges::sort(values, before);
-    values.erase(std::unique(values.begin(), values.end(),
-                             [&](double a, double b) { return !before(a, b) && !before(b, a); }),
-                 values.end());
+    values.erase(
+        std::unique(values.begin(), values.end(), [&](double a, double b) { return !before(a, b) && !before(b, a); }),
+        values.end());
 }
 
 void normalize(const DeclaredParameter& parameter, std::vector<double>& direction) {
@@ -240,8 +240,9 @@ Batch InputSource::next(std::size_t lanes) {
 
 std::vector<std::vector<double>> InputSource::sweep(std::size_t parameter, std::size_t points) {
     const DeclaredParameter& moved = subject_.function().parameters[parameter];
-    expect(moved.domain.kind == Domain::Kind::range,
-           [&] { return subject_.function().place() + ": only a parameter with a range can be promised to be monotone"; });
+    expect(moved.domain.kind == Domain::Kind::range, [&] {
+        return subject_.function().place() + ": only a parameter with a range can be promised to be monotone";
+    });
     std::vector<double> values = all_halves(moved);
     if (values.size() > points) {
         const double stride = static_cast<double>(values.size() - 1) / static_cast<double>(points - 1);

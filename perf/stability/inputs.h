@@ -1,4 +1,5 @@
-// Which inputs a function is tried with: all halves, the hard cases in all combinations, and a search with a fixed seed.
+// Which inputs a function is tried with: all halves, the hard cases in all combinations, and a search with a fixed
+// seed.
 #pragma once
 
 #include <cstdint>
@@ -19,8 +20,6 @@ struct Effort {
 };
 inline constexpr Effort kFastEffort{};
 inline constexpr Effort kFullEffort{.combinations = 1'000'000, .drawn = 262'144, .sweeps = 64, .sweep_points = 8192};
-inline constexpr Effort kAllCombinations{
-    .combinations = 10'000'000, .drawn = 262'144, .sweeps = 64, .sweep_points = 8192};
 
 /// Numbers of the domain, each as its parameter's precision holds it, by size.
 [[nodiscard]] std::vector<double> hard_values(const DeclaredParameter& parameter, const std::vector<double>& constants);

@@ -59,8 +59,9 @@ std::vector<LedgerRow> ledger_rows(const std::vector<FunctionStability>& functio
 std::string ledger_text(const std::vector<LedgerRow>& rows) {
     std::string text = "[\n";
     for (const LedgerRow& row : rows) {
-        const Json json{{"case", row.function},           {"model", row.model},   {"input", row.input},
-                        {"expected", number(row.expected)}, {"got", number(row.got)}, {"tolerance", number(row.tolerance)},
+        const Json json{{"case", row.function},   {"model", row.model},
+                        {"input", row.input},     {"expected", number(row.expected)},
+                        {"got", number(row.got)}, {"tolerance", number(row.tolerance)},
                         {"reason", row.reason}};
         text += json.dump() + (&row == &rows.back() ? "\n" : ",\n");
     }

@@ -90,7 +90,8 @@ bool keeps(const Promise& promise, double got, double truth, double end_slack) {
 }
 
 void judge_values(const Trial& trial, const Promise& promise, std::vector<double>& badness) {
-    // A shader's constants have 24 bits, so that what should end at 1 may end a step of fp32 beyond. Half has no such steps.
+    // A shader's constants have 24 bits, so that what should end at 1 may end a step of fp32 beyond. Half has no such
+    // steps.
     const bool narrow = shader_ir::is_narrow(trial.tally.model);
     const double end_slack = narrow ? 0.0 : 0x1p-22 * std::max(std::fabs(promise.low), std::fabs(promise.high));
     for (std::size_t lane = 0; lane < badness.size(); ++lane) {
@@ -132,9 +133,8 @@ void judge_sweep(const Trial& trial, const Promise& promise, const std::vector<b
         if (begins[lane]) continue;
         for (std::size_t s = 0; s < trial.got.size(); ++s) {
             const double before = trial.got[s][lane - 1], here = trial.got[s][lane];
-            const double slack =
-                kResultSteps * step_at(std::max(std::fabs(before), std::fabs(here)), format,
-                                       trial.subject.function().returns_full);
+            const double slack = kResultSteps * step_at(std::max(std::fabs(before), std::fabs(here)), format,
+                                                        trial.subject.function().returns_full);
             if (sign * (here - before) >= -slack) continue;
             trial.break_promise(promise, lane, s, badness);
             break;
@@ -171,7 +171,8 @@ void fill_strip(Strip& strip, const Subject& subject, const Batch& batch, const 
     if (strip.at.empty()) {
         const std::vector<double> values = all_halves(function.parameters[p]);
         strip.parameter = function.parameters[p].name + (function.parameters[p].components > 1 ? ".x" : "");
-        for (std::size_t i = 0; i <= Strip::kBins; ++i) strip.at.push_back(values[i * (values.size() - 1) / Strip::kBins]);
+        for (std::size_t i = 0; i <= Strip::kBins; ++i)
+            strip.at.push_back(values[i * (values.size() - 1) / Strip::kBins]);
         strip.allowed.assign(Strip::kBins, kInfinity);
         strip.errors.assign(in_models.size(), std::vector<double>(Strip::kBins, -1.0));
     }
@@ -278,15 +279,15 @@ private:
             const auto accuse = [&](const Finding& finding, const std::string& what) {
                 std::vector<double> input = finding.input;
                 if (!on_context(tally)) input = shrunk(subject_, input, tally.model, tally.at_most);
-                result_.violations.push_back(
-                    fmt::format("{}, {}: {}; try {}", subject, tally.arithmetic, what, input_text(subject_.function(), input)));
+                result_.violations.push_back(fmt::format("{}, {}: {}; try {}", subject, tally.arithmetic, what,
+                                                         input_text(subject_.function(), input)));
             };
-            if (tally.not_finite > 0)
-                accuse(tally.worst, fmt::format("{} inputs give NaN or inf", tally.not_finite));
+            if (tally.not_finite > 0) accuse(tally.worst, fmt::format("{} inputs give NaN or inf", tally.not_finite));
             else if (tally.worst.ratio > tally.at_most)
-                accuse(tally.worst, fmt::format("{:.3g} times the criterion of {:.3g} ({:.6g} for {:.6g}; {} inputs are over)",
-                                                tally.worst.ratio, tally.worst.allowed, tally.worst.got,
-                                                tally.worst.expected, tally.over));
+                accuse(tally.worst,
+                       fmt::format("{:.3g} times the criterion of {:.3g} ({:.6g} for {:.6g}; {} inputs are over)",
+                                   tally.worst.ratio, tally.worst.allowed, tally.worst.got, tally.worst.expected,
+                                   tally.over));
             for (const BrokenPromise& broken : tally.broken)
                 accuse(broken.first, fmt::format("'{}' does not hold for {} inputs ({:.6g} for {:.6g})", broken.promise,
                                                  broken.lanes, broken.first.got, broken.first.expected));

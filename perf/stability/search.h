@@ -33,7 +33,7 @@ struct BrokenPromise {
 
 /// What one arithmetic did.
 struct Tally {
-    std::string arithmetic;  ///< a model's name, "mediump here" or "highp here"
+    std::string arithmetic;                                ///< a model's name, "mediump here" or "highp here"
     shader_ir::Model model = shader_ir::Model::in_double;  ///< whose criterion it is held to
     std::size_t lanes = 0;
     std::size_t not_finite = 0;  ///< lanes of finite inputs with a result that is NaN or inf
@@ -48,9 +48,9 @@ struct Tally {
 struct Strip {
     static constexpr std::size_t kBins = 128;
     std::string parameter;
-    std::vector<double> at;                       ///< where each bin begins, kBins + 1 numbers
-    std::vector<double> allowed;                  ///< the least the criterion allows in a bin; infinite where none fell
-    std::vector<std::vector<double>> errors;      ///< for each of kModels but double; -1 where nothing fell
+    std::vector<double> at;                   ///< where each bin begins, kBins + 1 numbers
+    std::vector<double> allowed;              ///< the least the criterion allows in a bin; infinite where none fell
+    std::vector<std::vector<double>> errors;  ///< for each of kModels but double; -1 where nothing fell
 };
 
 /// A step of the worst input: the same operation in double and in the model.

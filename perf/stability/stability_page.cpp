@@ -53,7 +53,8 @@ std::string line_of(const std::vector<double>& values, double low, double high, 
             pen_down = false;
             continue;
         }
-        const double share = (std::log10(std::clamp(value, low, high)) - std::log10(low)) / (std::log10(high) - std::log10(low));
+        const double share =
+            (std::log10(std::clamp(value, low, high)) - std::log10(low)) / (std::log10(high) - std::log10(low));
         const double y = kTop + kHeight * (1.0 - share);
         const double x = kLeft + kWidth * static_cast<double>(bin) / static_cast<double>(Strip::kBins);
         path += fmt::format("{}{:.1f} {:.1f}H{:.1f}", pen_down ? "L" : "M", x, y, x + kWidth / Strip::kBins);
@@ -80,15 +81,21 @@ std::string strip_svg(const FunctionStability& function) {
         "<figure><svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"Largest error of {} along {}, logarithmic\">",
         kLeft + kWidth + 10, kTop + kHeight + 34, html_escaped(function.title), html_escaped(strip.parameter));
     for (const double level : {low, std::sqrt(low * high), high}) {
-        const double y = kTop + kHeight * (1.0 - (std::log10(level) - std::log10(low)) / (std::log10(high) - std::log10(low)));
-        svg += fmt::format("<path d=\"M{} {:.1f}H{}\" stroke=\"currentColor\" opacity=\".25\"/>"
-                           "<text x=\"{}\" y=\"{:.1f}\" text-anchor=\"end\">{:.0e}</text>",
-                           kLeft, y, kLeft + kWidth, kLeft - 6, y + 4, level);
+        const double y =
+            kTop + kHeight * (1.0 - (std::log10(level) - std::log10(low)) / (std::log10(high) - std::log10(low)));
+        svg += fmt::format(
+            "<path d=\"M{} {:.1f}H{}\" stroke=\"currentColor\" opacity=\".25\"/>"
+            "<text x=\"{}\" y=\"{:.1f}\" text-anchor=\"end\">{:.0e}</text>",
+            kLeft, y, kLeft + kWidth, kLeft - 6, y + 4, level);
     }
-    for (const std::size_t bin : {std::size_t{0}, Strip::kBins / 4, Strip::kBins / 2, 3 * Strip::kBins / 4, Strip::kBins}) {
+    for (const std::size_t bin :
+         {std::size_t{0}, Strip::kBins / 4, Strip::kBins / 2, 3 * Strip::kBins / 4, Strip::kBins}) {
         const double x = kLeft + kWidth * static_cast<double>(bin) / static_cast<double>(Strip::kBins);
         svg += fmt::format("<text x=\"{:.1f}\" y=\"{}\" text-anchor=\"{}\">{:.3g}</text>", x, kTop + kHeight + 15,
-                           bin == 0 ? "start" : bin == Strip::kBins ? "end" : "middle", strip.at[bin]);
+                           bin == 0              ? "start"
+                           : bin == Strip::kBins ? "end"
+                                                 : "middle",
+                           strip.at[bin]);
     }
     // float, half, half_flushed, es_minimum: the order of kModels behind double.
     constexpr const char* kStyles[] = {"stroke-width=\"1\" opacity=\".45\"", "stroke-width=\"2.2\"",
@@ -96,23 +103,32 @@ std::string strip_svg(const FunctionStability& function) {
                                        "stroke-width=\"1.4\" stroke-dasharray=\"2 3\""};
     for (std::size_t m = 0; m < strip.errors.size(); ++m) svg += line_of(strip.errors[m], low, high, kStyles[m]);
     svg += line_of(strip.allowed, low, high, "stroke-width=\"5\" opacity=\".22\"");
-    return svg + fmt::format("</svg><figcaption>Largest error along {} (its halves, evenly). Thick line half, dashed "
-                             "flushed, dotted ES minimum, thin float; the broad grey line is the least that the "
-                             "criterion allows there.</figcaption></figure>\n",
-                             html_escaped(strip.parameter));
+    return svg + fmt::format(
+                     "</svg><figcaption>Largest error along {} (its halves, evenly). Thick line half, dashed "
+                     "flushed, dotted ES minimum, thin float; the broad grey line is the least that the "
+                     "criterion allows there.</figcaption></figure>\n",
+                     html_escaped(strip.parameter));
 }
 
 std::string verdict_cell(const Tally& tally, bool exempted) {
     const bool fails = !tally.holds();
     const double ratio = std::max(tally.worst.ratio, 0.0);
-    return fmt::format("<td class=\"number{}\">{}{}</td>", fails ? " over" : exempted ? " exempt" : "",
-                       tally.broken.empty() ? ratio_text(ratio) : "broken", fails ? " &#10007;" : exempted ? " *" : "");
+    return fmt::format("<td class=\"number{}\">{}{}</td>",
+                       fails      ? " over"
+                       : exempted ? " exempt"
+                                  : "",
+                       tally.broken.empty() ? ratio_text(ratio) : "broken",
+                       fails      ? " &#10007;"
+                       : exempted ? " *"
+                                  : "");
 }
 
-const char* const kArithmetics[] = {"double", "float", "half", "half_flushed", "es_minimum", "mediump here", "highp here"};
+const char* const kArithmetics[] = {"double",     "float",        "half",      "half_flushed",
+                                    "es_minimum", "mediump here", "highp here"};
 
 std::string row_of(const FunctionStability& function, std::size_t index) {
-    std::string row = fmt::format("<tr><th scope=\"row\"><a href=\"#f{}\">{}</a></th>", index, html_escaped(function.title));
+    std::string row =
+        fmt::format("<tr><th scope=\"row\"><a href=\"#f{}\">{}</a></th>", index, html_escaped(function.title));
     for (const char* arithmetic : kArithmetics) {
         const auto tally = std::ranges::find(function.tallies, arithmetic, &Tally::arithmetic);
         row += tally == function.tallies.end()
@@ -140,12 +156,14 @@ std::string scalars_text(const std::vector<double>& scalars) {
 std::string steps_table(const FunctionStability& function) {
     if (function.steps.empty()) return "";
     std::string table =
-        "<div class=\"wide\" tabindex=\"0\"><table><thead><tr><th>step</th><th>in double</th><th>in this arithmetic</th>"
+        "<div class=\"wide\" tabindex=\"0\"><table><thead><tr><th>step</th><th>in double</th><th>in this "
+        "arithmetic</th>"
         "</tr></thead><tbody>\n";
     for (const Step& step : function.steps)
-        table += fmt::format("<tr><td><code>{}</code><br><span class=\"soft\">{}</span></td><td>{}</td><td>{}</td></tr>\n",
-                             html_escaped(step.text), html_escaped(step.place), scalars_text(step.in_double),
-                             scalars_text(step.in_model));
+        table +=
+            fmt::format("<tr><td><code>{}</code><br><span class=\"soft\">{}</span></td><td>{}</td><td>{}</td></tr>\n",
+                        html_escaped(step.text), html_escaped(step.place), scalars_text(step.in_double),
+                        scalars_text(step.in_model));
     return table + "</tbody></table></div>\n";
 }
 
@@ -153,9 +171,10 @@ std::string promise_line(const Declaration& function) {
     std::string text;
     for (const DeclaredParameter& one : function.parameters) {
         text += fmt::format("{}{} {}", text.empty() ? "" : ", ", one.name,
-                            one.domain.kind == Domain::Kind::any    ? "any, NaN and inf too"
-                            : one.domain.kind == Domain::Kind::unit ? "of length 1"
-                                                                    : fmt::format("{:g}..{:g}", one.domain.low, one.domain.high));
+                            one.domain.kind == Domain::Kind::any ? "any, NaN and inf too"
+                            : one.domain.kind == Domain::Kind::unit
+                                ? "of length 1"
+                                : fmt::format("{:g}..{:g}", one.domain.low, one.domain.high));
     }
     if (!function.where.empty()) text += ", where " + function.where;
     text += ": finite";
@@ -165,15 +184,18 @@ std::string promise_line(const Declaration& function) {
     return text + ".";
 }
 
-std::string section(const FunctionStability& function, std::size_t index, const std::string& command) {
+std::string section(const FunctionStability& function, std::size_t index, const std::string& command, bool open) {
     const Tally& worst = function.worst();
-    std::string html = fmt::format("<details id=\"f{}\"{}><summary><b>{}</b> <span class=\"soft\">{}</span></summary>\n", index,
-                                   function.violations.empty() ? "" : " open", html_escaped(function.title),
-                                   html_escaped(function.function.place()));
+    std::string html =
+        fmt::format("<details id=\"f{}\"{}><summary><b>{}</b> <span class=\"soft\">{}</span></summary>\n", index,
+                    open && !function.violations.empty() ? " open" : "", html_escaped(function.title),
+                    html_escaped(function.function.place()));
     html += "<p>" + html_escaped(promise_line(function.function)) + "</p>\n";
     for (const Exemption& one : function.function.exemptions)
-        html += fmt::format("<p class=\"soft\">Exempt, {}: {}</p>\n", html_escaped(one.bound()), html_escaped(one.reason));
-    for (const std::string& one : function.violations) html += "<p><b>Does not hold:</b> " + html_escaped(one) + "</p>\n";
+        html +=
+            fmt::format("<p class=\"soft\">Exempt, {}: {}</p>\n", html_escaped(one.bound()), html_escaped(one.reason));
+    for (const std::string& one : function.violations)
+        html += "<p><b>Does not hold:</b> " + html_escaped(one) + "</p>\n";
     html += strip_svg(function);
     if (worst.worst.ratio > 0.0) {
         html += fmt::format("<p>Worst, {}: {}. It gives {:.7g} for {:.7g}; {:.3g} is allowed.</p>\n", worst.arithmetic,
@@ -196,13 +218,14 @@ std::string exhibit_section(const std::vector<ExhibitResult>& exhibit) {
     for (std::size_t i = 0; i < exhibit.size(); ++i) {
         const ExhibitResult& one = exhibit[i];
         html += fmt::format("<h3>{}: {}</h3><p>Breaks at {}. Here: {}.</p>\n", html_escaped(one.entry.name),
-                            one.found ? "found" : "not found", html_escaped(one.entry.breaks), html_escaped(one.entry.shipped));
+                            one.found ? "found" : "not found", html_escaped(one.entry.breaks),
+                            html_escaped(one.entry.shipped));
         if (!one.printed.violations.empty())
             html += "<p class=\"soft\">" + html_escaped(one.printed.violations.front()) + "</p>\n";
         html += "<div class=\"pair\">" + picture(one.picture_printed, "as printed, in half") +
                 picture(one.picture_mended, one.entry.mended + std::string(", in half")) + "</div>\n";
-        html += section(one.printed, 1000 + 2 * i, "halfframe stability") +
-                section(one.mended, 1001 + 2 * i, "halfframe stability");
+        html += section(one.printed, 1000 + 2 * i, "halfframe stability", false) +
+                section(one.mended, 1001 + 2 * i, "halfframe stability", true);
     }
     return html;
 }
@@ -216,24 +239,28 @@ std::string stability_page(const StabilityReport& report) {
     html += kStyle;
     html += "</style></head><body><a class=\"skip\" href=\"#table\">To the table</a>\n<h1>Where half breaks</h1>\n";
     const std::vector<std::string> violations = report.violations();
-    html += fmt::format(
-        "<p><b>{}</b> {} inputs through {} functions; NaN or inf: {}. {}</p>\n",
-        violations.empty() ? "Everything holds." : fmt::format("{} things do not hold.", violations.size()),
-        report.inputs(), report.functions.size(), report.not_finite(),
-        report.in_shaders_es == 0 ? ""
-                                  : fmt::format("Covered: {} of the {} functions of shaders_es, {} of them with a reason not "
-                                                "to be run alone. Planted faults found: {} of {}.",
-                                                report.covered(), report.in_shaders_es, report.not_run.size(), report.found(),
-                                                report.exhibit.size()));
-    html += fmt::format("<p class=\"soft\">{}</p>\n",
-                        html_escaped(report.missing.empty() ? "Drawn on " + report.driver : "Nothing was drawn: " + report.missing));
     html +=
-        "<p class=\"soft\">A figure is the largest error over what is allowed: 4 times what rounding the inputs must cause, "
-        "and 2 steps of the result. Above 1 it fails and is crossed; a star marks an exemption, which is told below.</p>\n";
+        fmt::format("<p><b>{}</b> {} inputs through {} functions; NaN or inf: {}. {}</p>\n",
+                    violations.empty() ? "Everything holds." : fmt::format("{} things do not hold.", violations.size()),
+                    report.inputs(), report.functions.size(), report.not_finite(),
+                    report.in_shaders_es == 0
+                        ? ""
+                        : fmt::format("Covered: {} of the {} functions of shaders_es, {} of them with a reason not "
+                                      "to be run alone. Planted faults found: {} of {}.",
+                                      report.covered(), report.in_shaders_es, report.not_run.size(), report.found(),
+                                      report.exhibit.size()));
+    html += fmt::format(
+        "<p class=\"soft\">{}</p>\n",
+        html_escaped(report.missing.empty() ? "Drawn on " + report.driver : "Nothing was drawn: " + report.missing));
+    html +=
+        "<p class=\"soft\">A figure is the largest error over what is allowed: 4 times what rounding the inputs must "
+        "cause, "
+        "and 2 steps of the result. Above 1 it fails and is crossed; a star marks an exemption, which is told "
+        "below.</p>\n";
     html += "<h2 id=\"table\">All functions</h2>\n" + table_of(report.functions);
     html += "<h2>One by one</h2>\n";
     for (std::size_t i = 0; i < report.functions.size(); ++i)
-        html += section(report.functions[i], i, "halfframe stability " + report.functions[i].function.name);
+        html += section(report.functions[i], i, "halfframe stability " + report.functions[i].function.name, true);
     html += exhibit_section(report.exhibit);
     if (!report.not_run.empty()) html += "<h2>Not run alone</h2>\n<ul>\n";
     for (const Declaration& one : report.not_run)

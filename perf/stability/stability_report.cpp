@@ -40,9 +40,9 @@ std::string functions_text(const StabilityReport& report) {
         table.add_row({effect_of(function.function), function.title, std::to_string(function.lanes),
                        cell(function, "float"), cell(function, "half"), cell(function, "half_flushed"),
                        cell(function, "es_minimum"), cell(function, "mediump here"), cell(function, "highp here"),
-                       function.portable()             ? "yes"
-                       : function.violations.empty()   ? "by exemption"
-                                                       : "no"});
+                       function.portable()           ? "yes"
+                       : function.violations.empty() ? "by exemption"
+                                                     : "no"});
     }
     return "Worst error over the criterion (4 times what rounding the inputs must cause, and 2 steps of the result)\n" +
            table.text();
@@ -108,15 +108,18 @@ Json function_json(const FunctionStability& function) {
             broken.push_back({{"promise", one.promise},
                               {"inputs", one.lanes},
                               {"first", finding_json(function.function, one.first)}});
-        Json row{{"arithmetic", tally.arithmetic}, {"inputs", tally.lanes},      {"not_finite", tally.not_finite},
-                 {"over", tally.over},             {"at_most", tally.at_most},   {"broken_promises", broken},
+        Json row{{"arithmetic", tally.arithmetic}, {"inputs", tally.lanes},
+                 {"not_finite", tally.not_finite}, {"over", tally.over},
+                 {"at_most", tally.at_most},       {"broken_promises", broken},
                  {"holds", tally.holds()}};
         if (tally.worst.ratio >= 0.0) row["worst"] = finding_json(function.function, tally.worst);
         tallies.push_back(row);
     }
-    return {{"function", function.title},      {"place", function.function.place()}, {"variant", function.variant},
-            {"method", function.method},       {"inputs", function.lanes},           {"near_jump", function.near_jump},
-            {"portable", function.portable()}, {"arithmetics", tallies},             {"violations", function.violations}};
+    return {{"function", function.title},       {"place", function.function.place()},
+            {"variant", function.variant},      {"method", function.method},
+            {"inputs", function.lanes},         {"near_jump", function.near_jump},
+            {"portable", function.portable()},  {"arithmetics", tallies},
+            {"violations", function.violations}};
 }
 
 }  // namespace
@@ -167,8 +170,8 @@ std::vector<std::string> StabilityReport::violations() const {
 }
 
 std::string stability_text(const StabilityReport& report) {
-    std::string text = report.missing.empty() ? "on " + report.driver + "\n"
-                                              : "nothing was drawn: " + report.missing + "\n";
+    std::string text =
+        report.missing.empty() ? "on " + report.driver + "\n" : "nothing was drawn: " + report.missing + "\n";
     text += "\n" + functions_text(report) + exemptions_text(report) + exhibit_text(report.exhibit) + "\n";
     const std::vector<std::string> violations = report.violations();
     if (!violations.empty()) text += "Does not hold\n";

@@ -43,9 +43,9 @@ std::string helpers_of(const Declaration& function) {
     for (std::size_t i = 0; i < function.promises.size(); ++i) {
         const Promise& promise = function.promises[i];
         if (promise.kind != Promise::Kind::holds) continue;
-        text += fmt::format("bool declared_promise_{}({}, {}{} result, highp float slack) {{ return {}; }}\n", i,
-                            parameters, function.returns_full ? "highp " : "", function.returned_type,
-                            promise.condition);
+        text +=
+            fmt::format("bool declared_promise_{}({}, {}{} result, highp float slack) {{ return {}; }}\n", i,
+                        parameters, function.returns_full ? "highp " : "", function.returned_type, promise.condition);
     }
     return text;
 }
@@ -176,15 +176,15 @@ Columns Subject::run(const Batch& batch, Model model, const shader_ir::ResultWat
 
 std::vector<bool> Subject::meant(const Batch& batch) const {
     if (function_.where.empty()) return std::vector<bool>(batch.lanes(), true);
-    return as_bools(
-        shader_ir::evaluate(module_, "declared_where", batch.inputs, Model::in_double).returned.at(0));
+    return as_bools(shader_ir::evaluate(module_, "declared_where", batch.inputs, Model::in_double).returned.at(0));
 }
 
 Columns Subject::jumps(const Batch& batch) const {
     Columns values;
     for (std::size_t i = 0; i < function_.jumps.size(); ++i) {
-        values.push_back(shader_ir::evaluate(module_, fmt::format("declared_jump_{}", i), batch.inputs, Model::in_double)
-                             .returned.at(0));
+        values.push_back(
+            shader_ir::evaluate(module_, fmt::format("declared_jump_{}", i), batch.inputs, Model::in_double)
+                .returned.at(0));
     }
     return values;
 }

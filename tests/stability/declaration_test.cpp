@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <set>
+#include <iostream>
 
 #include "engine/error.h"
 
@@ -34,12 +34,10 @@ TEST(Declarations, EveryWordThatLooksLikeADefinitionIsFound) {
     // Counted by another rule than the reader's: a line at the left edge that ends a signature with an open brace.
     std::size_t braces = 0;
     for (const gl::ShaderFile& file : gl::shader_files()) {
-        std::string_view text = file.text;
-        bool left_edge = true;
         std::string line;
-        for (const char letter : text) {
+        for (const char letter : file.text) {
             if (letter == '\n') {
-                const bool definition = left_edge && line.find(") {") != std::string::npos && line.find('#') != 0 &&
+                const bool definition = line.find(") {") != std::string::npos && line.find('#') != 0 &&
                                         line.find("//") != 0 && line.find("void main") == std::string::npos &&
                                         line[0] != ' ' && line[0] != '}';
                 // A signature over two lines ends indented.

@@ -35,6 +35,7 @@ public:
 [[nodiscard]] std::unique_ptr<Command> make_contact_sheet_command(CLI::App& app);
 [[nodiscard]] std::unique_ptr<Command> make_check_command(CLI::App& app);
 [[nodiscard]] std::unique_ptr<Command> make_cost_command(CLI::App& app);
+[[nodiscard]] std::unique_ptr<Command> make_stability_command(CLI::App& app);
 
 /// Printed under every --help.
 inline constexpr const char* kExitCodes =

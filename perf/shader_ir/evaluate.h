@@ -37,12 +37,16 @@ struct Sampler {
     std::function<std::array<int, 3>(int lod)> size;  ///< for textureSize; may be empty
 };
 
+/// Is told every float result of the first lane, in the order of the work: the instruction's line and its scalars.
+using ResultWatch = std::function<void(std::uint32_t line, std::span<const double> scalars)>;
+
 /// What stands outside the function, by the name in the text. Uniforms, inputs and outputs keep 32 bits, whatever their
 /// precision: a mediump one is rounded where a mediump operation uses it.
 struct Bindings {
     std::map<std::string, Columns, std::less<>> variables;  ///< uniforms and inputs
     /// Also by the name of a sampler parameter. Of an array: "images" for all elements, "images[2]" for one.
     std::map<std::string, Sampler, std::less<>> samplers;
+    ResultWatch watch;  ///< may be empty
 };
 
 struct Evaluation {

@@ -129,6 +129,7 @@ void Machine::fill(Storage& target, const Columns& columns, std::size_t first, b
 }
 
 void Machine::begin(const Bindings& bindings, std::size_t first, std::size_t lanes) {
+    watch_ = first == 0 && bindings.watch ? &bindings.watch : nullptr;
     active_.resize(lanes);
     for (Lane lane = 0; lane < lanes; ++lane) active_[lane] = lane;
     std::fill(discarded_.begin(), discarded_.end(), std::uint8_t{0});
@@ -259,6 +260,19 @@ void Machine::run(const Instruction& one) {
                        run_integer(one) || run_logic(one) || run_conversion(one) || run_matrix(one) ||
                        run_sampling(one);
     if (!known) fail(one, "this instruction cannot be evaluated one pixel at a time");
+    if (watch_ != nullptr) tell(one);
+}
+
+/// What only moves values about is passed over.
+void Machine::tell(const Instruction& one) const {
+    if (one.result == 0 || one.op == spv::OpLoad || one.op == spv::OpVariable || one.op == spv::OpAccessChain ||
+        one.op == spv::OpCompositeExtract || one.op == spv::OpCompositeConstruct || one.op == spv::OpVectorShuffle)
+        return;
+    const Type& type = module_.type(one.type);
+    if (type.scalars == 0 || type.kind == Type::Kind::pointer || !type.float_leaf[0] || active_.front() != 0) return;
+    std::vector<double> scalars;
+    for (std::size_t s = 0; s < type.scalars; ++s) scalars.push_back(in(one.result, s)[0]);
+    (*watch_)(one.line, scalars);
 }
 
 bool Machine::run_memory(const Instruction& one) {

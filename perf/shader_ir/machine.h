@@ -64,6 +64,7 @@ private:
     void part(const Function& function, const Block& block, const Instruction& end, Waiting& waiting);
     void choose(std::span<const Instruction> phis);
     void run(const Instruction& one);
+    void tell(const Instruction& one) const;
     bool run_memory(const Instruction& one);
     void make_variable(const Instruction& one);
     void load(const Instruction& one);
@@ -154,6 +155,7 @@ private:
     std::vector<std::string> sampler_names_;
     std::vector<Lane> active_;
     std::vector<std::uint8_t> discarded_;
+    const ResultWatch* watch_ = nullptr;  ///< while the first lanes run
     std::vector<Id> came_from_;  ///< per lane: label of the block before, for phi
 };
 

@@ -9,9 +9,11 @@ FRAGMENT_IN FULL vec2 vertex_uv;
 uniform HALF sampler2D picture;
 uniform FULL vec4 texel;  // xy: one pixel. FULL: 1 / 1280 added to a uv is below half's last bit
 
+//@not_run it reads a texture; what it computes is edge_luma
 float luma_at(FULL vec2 pixels) { return edge_luma(sample_2d(picture, vertex_uv + pixels * texel.xy).rgb); }
 
 // Pixels from this one to the end of the run, up to the reach; `end` becomes the luma there less `middle`, or 0.
+//@not_run it reads a texture at every step; whole frames show it
 float walk(vec2 start, vec2 along, float middle, float enough, out float end) {
     end = 0.0;
     for (int i = 1; i <= ANTI_ALIAS_REACH; i++) {

@@ -6,6 +6,7 @@ uniform HALF sampler2D image;
 uniform FULL vec4 texel;  // xy: one texel in the direction of the blur. FULL: as in bloom_bright.frag
 
 // Both taps at that distance.
+//@not_run it reads a texture; what it computes is bloom_of_stored
 vec3 pair(FULL vec2 apart) {
     return bloom_of_stored(sample_2d(image, vertex_uv - apart).rgb) +
            bloom_of_stored(sample_2d(image, vertex_uv + apart).rgb);

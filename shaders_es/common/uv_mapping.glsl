@@ -18,8 +18,10 @@ uniform highp vec4 uv_mapping[2];  // rows of the matrix; xy the offset
 uniform highp vec4 uv_b_mapping[2];
 #endif
 
+//@not_run vertex stage, highp, of uniforms and attributes
 vec2 mapped_uv(vec2 at, vec4 rows, vec2 offset) { return vec2(dot(rows.xy, at), dot(rows.zw, at)) + offset; }
 
+//@not_run vertex stage, highp, of uniforms and attributes
 vec2 first_uv() {
 #ifdef UV_FROM_1
     vec2 at = uv_from_steps(uv1, uv1_range);
@@ -33,6 +35,7 @@ vec2 first_uv() {
 }
 
 #ifdef UV_B
+//@not_run vertex stage, highp, of uniforms and attributes
 vec2 second_uv() {
 #ifdef UV_B_FROM_1
     vec2 at = uv_from_steps(uv1, uv1_range);

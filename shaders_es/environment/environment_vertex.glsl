@@ -6,6 +6,7 @@
 uniform highp vec4 irradiance_terms[9];
 VERTEX_OUT HALF vec3 vertex_irradiance;
 
+//@not_run it hands nine uniforms to irradiance()
 void place_irradiance(vec3 n) {
     vertex_irradiance =
         irradiance(n, irradiance_terms[0].rgb, irradiance_terms[1].rgb, irradiance_terms[2].rgb,
@@ -13,5 +14,6 @@ void place_irradiance(vec3 n) {
                    irradiance_terms[6].rgb, irradiance_terms[7].rgb, irradiance_terms[8].rgb);
 }
 #else
+//@not_run it does nothing
 void place_irradiance(vec3 n) {}
 #endif

@@ -5,6 +5,7 @@ uniform highp mat4 shadow_from_eye;  // from metres (world axes, origin at the e
 uniform highp vec4 shadow_toward;    // xyz unit, towards the sun; w radius of the filter [m]
 VERTEX_OUT FULL vec3 shadow_at;      // FULL: a 1024th is past half's 11 bits as soon as it is filtered
 
+//@not_run it belongs to the vertex stage; what it computes is shadow_lift and a matrix in highp
 vec3 placed_in_shadow(vec3 at, vec3 n) {
 #ifdef DOUBLE_SIDED
     n = dot(n, shadow_toward.xyz) < 0.0 ? -n : n;  // the side that the sun lights is the side to step off to

@@ -5,6 +5,7 @@
 uniform HALF sampler2DShadow shadow_map;  // what a comparison gives is a share; where it looks is FULL
 FRAGMENT_IN FULL vec3 shadow_at;          // FULL: see shadow_place.glsl
 
+//@not_run it reads a texture
 float shadow_tap(FULL vec2 texels) {
 #ifdef TIER_REFERENCE
     FULL vec2 away = texels * (1.0 / float(SHADOW_MAP_SIZE_REFERENCE));
@@ -14,6 +15,7 @@ float shadow_tap(FULL vec2 texels) {
     return sample_compared(shadow_map, shadow_at + vec3(away, 0.0));
 }
 
+//@not_run it reads a texture; what it computes is lit_share, or a mean
 float sun_share() {
 #ifdef TIER_REFERENCE
     float sum = 0.0;

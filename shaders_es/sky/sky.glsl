@@ -2,6 +2,9 @@
 // that it reads the same after the frame's own tone map.
 
 // height: sine of the elevation, -1..1. Each colour is a display value 0..1.
+//@domain height: -1..1; zenith, horizon, ground: 0..1
+//@exempt half, half_flushed, es_minimum: within 0.001; mix() is a + s (b - a), and 1 - up^3 has steps of 2^-11 near the horizon: a quarter of a code
+//@promise in 0..1; where zenith == horizon && height >= 0.0: result == zenith
 vec3 sky_gradient(float height, vec3 zenith, vec3 horizon, vec3 ground) {
     float up = 1.0 - saturate(height);
     float above = 1.0 - up * up * up;                 // most of the change near the horizon

@@ -3,9 +3,15 @@
 // Plain functions of values: they sample nothing, so tests can call each one alone.
 
 // Fresnel reflectance (Schlick 1994). specular 0..1, l_dot_h 0..1.
+//@domain specular, l_dot_h: 0..1
+//@exempt half, half_flushed, es_minimum: within 0.0025; 1 - l_dot_h has steps of 2^-11 near 1, and its fifth power five of them: half a code
+//@promise in 0..1; falling l_dot_h; where l_dot_h == 1.0: result == specular; where l_dot_h == 0.0: within(result, vec3(1.0), slack)
 vec3 fresnel_schlick(vec3 specular, float l_dot_h) { return specular + (1.0 - specular) * pow5(saturate(1.0 - l_dot_h)); }
 
 // Fresnel of a prefiltered environment: rough surfaces brighten less at grazing angles (the talk, "Glossy Fresnel").
+//@domain specular, smoothness, n_dot_v: 0..1
+//@exempt half_flushed, es_minimum: within 0.0002; the fifth power is 0 below 2^-14: a twentieth of a code
+//@promise in 0..1; falling n_dot_v; where n_dot_v == 1.0: result == specular
 vec3 fresnel_glossy(vec3 specular, float smoothness, float n_dot_v) {
     return specular + (max(vec3(smoothness), specular) - specular) * pow5(saturate(1.0 - n_dot_v));
 }
@@ -13,16 +19,23 @@ vec3 fresnel_glossy(vec3 specular, float smoothness, float n_dot_v) {
 // Blinn power from glTF's perceptual roughness 0..1: 2 / alpha^2 - 2 with alpha = roughness^2 gives the lobe the width of
 // GGX's at its peak (B. Karis, SIGGRAPH 2013). The max() is the 2048 end of the talk's range: roughness below 0.177 looks
 // the same, and the division can never overflow half.
+//@domain roughness: 0..1
+//@promise in 2..2048; falling roughness
 float power_from_roughness(float roughness) {
     float alpha_squared = roughness * roughness * roughness * roughness;
     return max(2.0 / max(alpha_squared, 2.0 / (SURFACE_POWER_MAX + 2.0)) - 2.0, SURFACE_POWER_MIN);
 }
 
 // The talk's smoothness 0..1 of that power: power = 2^(10 smoothness + 1).
+//@domain power: 2..2048
+//@promise in 0..1; rising power; where power == 2.0: result == 0.0; where power == 2048.0: within(result, 1.0, slack)
 float smoothness_from_power(float power) { return saturate((log2(power) - 1.0) * 0.1); }
 
 #ifdef TIER_REFERENCE
 // (n.h)^power as written.
+//@variant TIER_REFERENCE
+//@domain n, h: unit; power: 1.75..2048
+//@promise in 0..1.002; falling power; where n == h: within(result, 1.0, 0.002)
 float blinn_lobe(FULL vec3 n, FULL vec3 h, float power) { return pow(max(dot(n, h), 1e-8), power); }
 #else
 // (n.h)^power from the chord n - h. With x = |n - h|^2 / 2 = 1 - n.h, ln(1 - x) = -x (1 + x/2 + x^2/3 + x^3/4 ...): at a
@@ -30,6 +43,10 @@ float blinn_lobe(FULL vec3 n, FULL vec3 h, float power) { return pow(max(dot(n, 
 // difference is what counts; from the scaled square on half is enough (0.06 % of the peak). The series stops at x^3: at a
 // power of 2 and n.h = 0.15 the lobe is 0.023 too bright, above a power of 8 under 0.001. 16 keeps the square of a one-texel
 // highlight (1e-5) above half's smallest normal number. `halfframe accuracy surface` prints both errors.
+//@domain n, h: unit; power: 1.75..2048
+//@promise in 0..1; falling power; where n == h: result == 1.0; within(blinn_lobe(h, n, power), result, slack)
+//@exempt half, half_flushed, es_minimum: within 0.001; the series adds four roundings where a wide lobe is under 0.1 (0.0004)
+//@promise within(blinn_lobe(n.yzx, h.yzx, power), result, slack)
 float blinn_lobe(FULL vec3 n, FULL vec3 h, float power) {
     FULL vec3 chord = 16.0 * (n - h);
     float square = dot(chord, chord);    // 512 x, 0..1024
@@ -43,6 +60,8 @@ float blinn_lobe(FULL vec3 n, FULL vec3 h, float power) {
 // Window: B. Karis, "Real Shading in Unreal Engine 4", SIGGRAPH 2013. FULL: a distance of 256 m squared overflows half.
 // Nearer than 1/316 of the range it grows no more, and never past 60000, so that a lamp inside a surface stays finite in any
 // unit of length, in half too.
+//@domain distance_squared: 0..1e8; inverse_range_squared: 1e-6..1e4
+//@promise in 0..60000; falling distance_squared; where distance_squared * inverse_range_squared >= 1.0: result == 0.0
 float distance_falloff(FULL float distance_squared, FULL float inverse_range_squared) {
     FULL float ratio = distance_squared * inverse_range_squared;
     FULL float window = clamp(1.0 - ratio * ratio, 0.0, 1.0);
@@ -50,6 +69,9 @@ float distance_falloff(FULL float distance_squared, FULL float inverse_range_squ
 }
 
 // Spot cone: 0 outside, 1 inside, smooth between. cos_scale = 1 / (cos inner - cos outer).
+//@domain cosine, cos_outer: -1..1; cos_scale: 0.5..2048
+//@exempt half_flushed, es_minimum: within 0.0006; t and its square are 0 below 2^-14: a seventh of a code
+//@promise in 0..1; rising cosine; where cosine <= cos_outer: result == 0.0
 float cone_falloff(float cosine, float cos_outer, float cos_scale) {
     float t = saturate((cosine - cos_outer) * cos_scale);
     return t * t * (3.0 - 2.0 * t);
@@ -59,12 +81,18 @@ float cone_falloff(float cosine, float cos_outer, float cos_scale) {
 // is its distance, ratio 0..1. `smear` is the square of the sphere's angular radius over that of the lobe (half angles, hence
 // the 8). The smeared peak is (1 - exp(-smear)) / smear of the sharp one; this is that within 8 %, without its 0/0, and 1 to
 // the bit for a point. The result lies in 1.75..power, so that nothing is ever raised to 0.
+//@domain power: 2..2048; ratio: 0..1
+//@promise in 1.75..2048; falling ratio; where ratio == 0.0: result == power
 float area_power(float power, float ratio) {
     float smear = ratio * (ratio * (power * 0.125));  // in this order nothing is subnormal in half before it is negligible
     return power / (smear + 1.0 / (1.0 + 0.5 * smear));
 }
 
 // Light leaving towards v for one direction of light. `radiance` is the light's color (irradiance / pi) at the point.
+//@domain albedo, specular: 0..1; power: 1.75..2048; n, v, l: unit; radiance: 0..250
+//@exempt half: within 1e-4 * max(max(radiance.r, radiance.g), radiance.b) + 1e-6; n.l and the lobe are subnormal near their ends
+//@exempt half_flushed, es_minimum: within 0.02 * max(max(radiance.r, radiance.g), radiance.b) + 0.016; lobe and light are 0 below 2^-14 they are multiplied by up to 256
+//@promise in 0..65504; where dot(n, l) <= 0.0: result == vec3(0.0)
 vec3 direct_light(vec3 albedo, vec3 specular, float power, FULL vec3 n, FULL vec3 v, FULL vec3 l, vec3 radiance) {
     FULL vec3 h = l + v;
     h *= inversesqrt(max(dot(h, h), 6.2e-5));  // l = -v has no half vector; 6.2e-5 is just above half's smallest normal
@@ -75,6 +103,10 @@ vec3 direct_light(vec3 albedo, vec3 specular, float power, FULL vec3 n, FULL vec
 
 // As direct_light, for a sphere instead of a point: the lobe gets lower and wider and keeps its energy, because the power
 // that widens it normalises it too.
+//@domain albedo, specular, ratio: 0..1; power: 2..2048; n, v, l: unit; radiance: 0..250
+//@exempt half: within 1e-4 * max(max(radiance.r, radiance.g), radiance.b) + 1e-6; n.l and the lobe are subnormal near their ends
+//@exempt half_flushed, es_minimum: within 0.02 * max(max(radiance.r, radiance.g), radiance.b) + 0.016; lobe and light are 0 below 2^-14 they are multiplied by up to 256
+//@promise in 0..65504; where dot(n, l) <= 0.0: result == vec3(0.0)
 vec3 sphere_light(vec3 albedo, vec3 specular, float power, FULL vec3 n, FULL vec3 v, FULL vec3 l, vec3 radiance,
                   float ratio) {
     return direct_light(albedo, specular, area_power(power, ratio), n, v, l, radiance);

@@ -45,6 +45,7 @@ uniform highp vec4 light_direction[LIGHT_SLOTS];  // xyz unit, w = cos outer
 uniform highp vec4 light_count;                           // x
 VERTEX_OUT HALF vec3 vertex_light;
 
+//@not_run it adds up uniforms in highp; what it computes is distance_falloff and cone_falloff
 vec3 local_light(vec3 at, vec3 n) {
     vec3 sum = vec3(0.0);
     for (int i = 0; i < LIGHT_SLOTS; i++) {

@@ -33,6 +33,7 @@ uniform HALF sampler2D occlusion_map;
 uniform HALF sampler2D normal_map;
 #endif
 
+//@not_run it reads a texture; what it computes is linear_from_srgb
 vec3 color_texel(HALF sampler2D image, FULL vec2 at) {
 #ifdef TIER_LOW
     return linear_from_srgb(sample_2d(image, at).rgb);  // ES 2.0 has no sRGB textures

@@ -3,6 +3,9 @@
 #include "tone_map/tone_map_limits.h"
 
 // light >= 0, any size: above 8 it is 8 (white). Clamping first keeps half from inf / inf.
+//@domain light: 0..65504
+//@exempt half, half_flushed, es_minimum: at most 1.1 times; three roundings of one step: a third of a code
+//@promise in 0..1; rising light; where light == vec3(8.0): within(result, vec3(1.0), slack)
 vec3 tone_map(vec3 light) {
     vec3 x = min(light, vec3(TONE_MAP_RANGE));
     return TONE_MAP_B * x / (x + TONE_MAP_A);
@@ -10,6 +13,8 @@ vec3 tone_map(vec3 light) {
 
 // display 0..1 to light 0..8. The slope reaches 299 at 1, so one 8-bit step at the top is one whole unit of light.
 // 1.0275 - y loses bits in half; 0.0275 + (1 - y) is exact there, and max() keeps compilers from folding it back.
+//@domain display: 0..1
+//@promise in 0..8; rising display; within(tone_map(result), display, 1.0 / 255.0)
 vec3 inverse_tone_map(vec3 display) {
     vec3 y = clamp(display, 0.0, 1.0);
     return TONE_MAP_A * y / (0.0275 + max(1.0 - y, 0.0));

@@ -1,0 +1,43 @@
+// Listings as talks and articles print them, half everywhere, beside the forms that hold: what each breaks.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/frame/image.h"
+#include "perf/stability/search.h"
+
+namespace halfframe::stability {
+
+/// The texts of perf/stability/exhibit, each "exhibit/NAME.glsl".
+[[nodiscard]] std::span<const gl::ShaderFile> exhibit_files();
+
+/// One listing. Its file holds `printed()` and `picture_printed()`, and `picture_mended()`, which draws the same with
+/// the form that holds.
+struct ExhibitEntry {
+    const char* name;     ///< of the planted fault, "dot and pow lobe"
+    const char* file;     ///< "exhibit/lobe.glsl"
+    const char* printed;  ///< the function as printed
+    const char* mended_file;
+    const char* mended;   ///< the function that holds
+    const char* breaks;   ///< in words: which inputs, and why
+    const char* shipped;  ///< where halfframe has the form that holds, or why it has none yet
+};
+
+struct ExhibitResult {
+    ExhibitEntry entry;
+    FunctionStability printed;
+    FunctionStability mended;
+    bool found = false;       ///< the printed form is refused, with its file and line; the mended one is not
+    Picture picture_printed;  ///< in half
+    Picture picture_mended;
+};
+
+[[nodiscard]] std::vector<ExhibitEntry> exhibit_list();
+[[nodiscard]] ExhibitResult measure(const ExhibitEntry& entry, const Effort& effort, const Drawing* drawing);
+
+/// The files of shaders_es and the exhibit's.
+[[nodiscard]] std::vector<gl::ShaderFile> files_with_exhibit();
+
+}  // namespace halfframe::stability

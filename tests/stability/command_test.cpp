@@ -1,0 +1,80 @@
+// halfframe stability as a child process: a stranger's function, the page, exit codes.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/harness/child_process.h"
+
+namespace halfframe::harness {
+namespace {
+
+ChildResult stability(const std::vector<std::string>& arguments) {
+    ChildCommand command{.arguments = {HALFFRAME_BINARY_DIR "/halfframe", "stability"}};
+    command.arguments.insert(command.arguments.end(), arguments.begin(), arguments.end());
+    return run_child(command);
+}
+
+/// Sentences are wrapped for a terminal.
+std::string in_one_line(const std::string& text) {
+    std::istringstream words(text);
+    std::string line;
+    for (std::string word; words >> word;) line += (line.empty() ? "" : " ") + word;
+    return line;
+}
+
+std::string own_file() {
+    const std::string path = testing::TempDir() + "halfframe_own.glsl";
+    std::ofstream(path) << "// Mine.\n#include \"common/maths.glsl\"\nfloat mine(float x) { return x * x * 0.001; }\n";
+    return path;
+}
+
+TEST(StabilityCommand, AStrangersFunctionIsTried) {
+    const ChildResult broken = stability({own_file(), "--function", "mine", "--domain", "x: 0..1000"});
+    EXPECT_EQ(broken.exit_code, 1) << broken.story();
+    EXPECT_NE(in_one_line(broken.output).find("mine, half: "), std::string::npos) << broken.output;
+    EXPECT_NE(in_one_line(broken.output).find("try x = 256"), std::string::npos) << broken.output;
+    const ChildResult sound = stability({own_file(), "--function", "mine", "--domain", "x: 1..100"});
+    EXPECT_EQ(sound.exit_code, 0) << sound.story();
+    const ChildResult silent = stability({own_file()});
+    EXPECT_EQ(silent.exit_code, 1) << silent.story();
+    EXPECT_NE(in_one_line(silent.output).find("write a line such as //@domain x: 0..1"), std::string::npos)
+        << silent.output;
+}
+
+TEST(StabilityCommand, JsonAndPageHoldTheSameFunction) {
+    const std::string page = testing::TempDir() + "halfframe_stability.html";
+    std::filesystem::remove(page);
+    const ChildResult result = stability({"tone_map", "--json", "--html", page});
+    ASSERT_EQ(result.exit_code, 0) << result.story();
+    const auto report = nlohmann::json::parse(result.output);
+    ASSERT_EQ(report.at("functions").size(), 2u);
+    EXPECT_EQ(report.at("not_finite"), 0);
+    EXPECT_GT(report.at("inputs").get<int>(), 100000);
+    for (const auto& row : report.at("functions").at(0).at("arithmetics")) EXPECT_TRUE(row.at("holds")) << row;
+    std::string text;
+    std::getline(std::ifstream(page), text, '\0');
+    for (const char* words :
+         {"<html lang=\"en\">", "inverse_tone_map", "<svg", "halfframe stability tone_map", "</html>"})
+        EXPECT_NE(text.find(words), std::string::npos) << words;
+    EXPECT_EQ(text.find("http"), std::string::npos) << "a page that stands alone names no other";
+}
+
+TEST(StabilityCommand, WhatContradictsItselfIsUsage) {
+    for (const std::vector<std::string>& arguments : {std::vector<std::string>{"tonemap"},
+                                                      {"tone_map", "--domain", "x: 0..1"},
+                                                      {"tone_map", "--ledger", "l.json"},
+                                                      {own_file(), "--function", "yours"},
+                                                      {"--arguments", "--full"}}) {
+        const ChildResult result = stability(arguments);
+        EXPECT_EQ(result.exit_code, 2) << result.story();
+        EXPECT_TRUE(result.output.empty()) << result.output;
+    }
+    EXPECT_EQ(stability({"/nowhere/f.glsl"}).exit_code, 3);
+}
+
+}  // namespace
+}  // namespace halfframe::harness

@@ -1,0 +1,261 @@
+// The search finds what is wrong and shrinks it, lets alone what is right, and the ledger keeps what it found.
+#include "perf/stability/search.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <iostream>
+#include <sstream>
+
+#include "engine/error.h"
+#include "perf/stability/argument_census.h"
+#include "perf/stability/exhibit.h"
+#include "perf/stability/ledger.h"
+#include "perf/stability/stability_report.h"
+#include "tests/harness/gl_fixture.h"
+
+namespace halfframe::stability {
+namespace {
+
+using shader_ir::Model;
+
+/// Functions of a made-up file.
+class Own {
+public:
+    explicit Own(std::string text)
+        : text_(std::move(text)), files_(gl::shader_files().begin(), gl::shader_files().end()) {
+        files_.push_back({"own/own.glsl", text_});
+    }
+    [[nodiscard]] FunctionStability search() const { return stability::search(subject(), kFastEffort, nullptr); }
+    [[nodiscard]] Subject subject() const {
+        return Subject(functions_of("own/own.glsl", text_).at(0), "TIER_CONSOLE", files_);
+    }
+
+private:
+    std::string text_;
+    std::vector<gl::ShaderFile> files_;
+};
+
+const Tally& tally_of(const FunctionStability& found, const std::string& arithmetic) {
+    for (const Tally& one : found.tallies) {
+        if (one.arithmetic == arithmetic) return one;
+    }
+    throw Mistake("there is no tally of " + arithmetic);
+}
+
+bool says(const FunctionStability& found, const std::string& words) {
+    for (const std::string& one : found.violations) {
+        if (one.find(words) != std::string::npos) return true;
+    }
+    return false;
+}
+
+TEST(Search, AnOverflowIsFoundAndShrunkToTheSmallestHalf) {
+    const FunctionStability found =
+        Own("//@domain x: 0..1000\nfloat square(float x) { float y = x * x; return y * 0.001; }\n").search();
+    EXPECT_EQ(tally_of(found, "float").not_finite, 0u);
+    // 255.875^2 rounds to 65472; from 256 on it is inf: 256 to 1000 are 1024 halves below 512 and 976 above.
+    EXPECT_EQ(tally_of(found, "half").not_finite, 2001u);
+    EXPECT_TRUE(says(found, "own/own.glsl:2: square, half: 2001 inputs give NaN or inf; try x = 256"))
+        << found.violations[0];
+    EXPECT_FALSE(found.portable());
+    EXPECT_EQ(found.method, "all 25554 halves");
+}
+
+TEST(Search, CancellationIsFoundAndItsConditionIsNot) {
+    // 1 - x loses nothing that rounding x has not lost; 1 - (1 - x) loses x.
+    EXPECT_TRUE(Own("//@domain x: 0..1\nfloat f(float x) { return 1.0 - x; }\n").search().portable());
+    const FunctionStability lost =
+        Own("//@domain x: 0..1\nfloat f(float x) { float y = 1.0 - x; return 1.0 - y; }\n").search();
+    EXPECT_TRUE(says(lost, "f, half: ")) << "1 - (1 - x) passed";
+    EXPECT_TRUE(tally_of(lost, "float").holds());
+}
+
+TEST(Search, WhatIsFullIsHeldToTheStepsOfFloat) {
+    const FunctionStability found =
+        Own("//@domain t: 0..4000\nfloat f(FULL float t) { float s = t; return s - floor(s); }\n").search();
+    EXPECT_TRUE(says(found, "f, half: "));
+    EXPECT_TRUE(tally_of(found, "float").holds());
+}
+
+TEST(Search, JumpsAreLetAloneWhereTheyAreDeclared) {
+    const std::string body = "float f(float x) { return floor(x * 10.3); }\n";
+    EXPECT_TRUE(says(Own("//@domain x: 0..1\n" + body).search(), "f, half: "));
+    const FunctionStability declared = Own("//@domain x: 0..1\n//@jumps floor(x * 10.3)\n" + body).search();
+    EXPECT_TRUE(declared.violations.empty()) << declared.violations[0];
+    EXPECT_GT(declared.near_jump, 0u);
+    EXPECT_LT(declared.near_jump, declared.lanes / 10);
+}
+
+TEST(Search, PromisesAreHeld) {
+    const std::string body = "float f(float x, float y) { return x * y; }\n";
+    const auto with = [&](const char* promise) {
+        return Own("//@domain x: 0..1; y: -1..1\n//@promise " + std::string(promise) + "\n" + body).search();
+    };
+    for (const char* kept :
+         {"in -1..1", "rising y", "where x == 0.0: result == 0.0", "error 0.001", "within(f(y, x), result, slack)"}) {
+        EXPECT_TRUE(with(kept).violations.empty()) << kept;
+    }
+    for (const char* broken : {"in 0..1", "falling y", "rising x", "where x == 1.0: result == 0.0", "error 1e-5"}) {
+        EXPECT_TRUE(says(with(broken), "'" + std::string(broken) + "' does not hold")) << broken;
+    }
+}
+
+TEST(Search, OnlyWhatLetsNanInMustSurviveIt) {
+    const FunctionStability found =
+        Own("//@domain x: any\n//@promise finite\nfloat f(float x) { return min(x, 8.0); }\n").search();
+    EXPECT_TRUE(says(found, "'finite' does not hold"));
+}
+
+TEST(Search, AnExemptionIsNoBlankCheque) {
+    const std::string body = "float f(float x) { float y = 1.0 - x; return 1.0 - y; }\n";
+    const auto with = [&](const char* exemption) {
+        return Own("//@domain x: 0..1\n//@exempt half, half_flushed, es_minimum: " + std::string(exemption) + "\n" +
+                   body)
+            .search();
+    };
+    const FunctionStability enough = with("within 0.0003; 2^-12 is lost");
+    EXPECT_TRUE(enough.violations.empty()) << enough.violations[0];
+    EXPECT_FALSE(enough.portable());
+    EXPECT_FALSE(with("within 0.0002; too little").violations.empty());
+    EXPECT_FALSE(with("at most 2 times; too little").violations.empty());
+}
+
+TEST(Search, StepsShowWhereTheArithmeticsPart) {
+    const Own own("//@domain x: 0..1000\nfloat f(float x) {\n    float y = x * x;\n    return y * 0.001;\n}\n");
+    const std::vector<Step> steps = steps_of(own.subject(), {300.0}, Model::half);
+    ASSERT_EQ(steps.size(), 2u);
+    EXPECT_EQ(steps[0].place, "own/own.glsl:3");
+    EXPECT_EQ(steps[0].text, "float y = x * x;");
+    EXPECT_EQ(steps[0].in_double, std::vector<double>{90000.0});
+    EXPECT_EQ(steps[0].in_model, std::vector<double>{HUGE_VAL});
+}
+
+TEST(Search, AVariantThatLeavesTheFunctionOutIsRefused) {
+    const std::string text = "#ifdef ELSEWHERE\n//@domain x: 0..1\nfloat f(float x) { return x; }\n#endif\n";
+    std::vector<gl::ShaderFile> files(gl::shader_files().begin(), gl::shader_files().end());
+    files.push_back({"own/own.glsl", text});
+    EXPECT_THROW(Subject(functions_of("own/own.glsl", text).at(0), "TIER_LOW", files), Error);
+}
+
+std::vector<FunctionStability> all_searched(const Effort& effort, const Drawing* drawing) {
+    const std::vector<gl::ShaderFile> files = files_with_exhibit();
+    std::vector<FunctionStability> all;
+    for (const Declaration& function : all_functions()) {
+        if (!function.not_run.empty()) continue;
+        for (const std::string& variant : function.variants)
+            all.push_back(search(Subject(function, variant, files), effort, drawing));
+    }
+    return all;
+}
+
+TEST(ShadersEs, EveryFunctionHoldsInAllModelsAndTheLedgerKnowsItsWorstInputs) {
+    const std::vector<FunctionStability> all = all_searched(kFastEffort, nullptr);
+    std::size_t inputs = 0, lost = 0;
+    for (const FunctionStability& one : all) {
+        for (const std::string& violation : one.violations) ADD_FAILURE() << violation;
+        for (const Tally& tally : one.tallies) {
+            inputs += tally.lanes;
+            lost += tally.not_finite;
+        }
+    }
+    std::cout << "inputs " << inputs << ", NaN or inf " << lost << "\n";
+    EXPECT_GT(inputs, 4'000'000u);
+    EXPECT_EQ(lost, 0u);
+    const std::string path = HALFFRAME_SOURCE_DIR "/tests/stability/ledger.json";
+    std::ostringstream text;
+    text << std::ifstream(path).rdbuf();
+    const std::vector<LedgerRow> kept = read_ledger(text.str(), path);
+    EXPECT_EQ(kept.size(), all.size() * shader_ir::kModels.size());
+    for (const std::string& change : differences(kept, ledger_rows(all)))
+        ADD_FAILURE() << change << "; if it is meant: halfframe stability --write-ledger tests/stability/ledger.json";
+}
+
+TEST(Ledger, NamesWhatIsNewGoneOrDifferent) {
+    const LedgerRow row{"f", "half", "x = 1", 1.0, 1.001, 0.01, "so"};
+    EXPECT_TRUE(differences({row}, {row}).empty());
+    EXPECT_EQ(read_ledger(ledger_text({row}), "l").at(0).got, 1.001);
+    LedgerRow infinite = row;
+    infinite.got = HUGE_VAL;
+    EXPECT_EQ(read_ledger(ledger_text({infinite}), "l").at(0).got, HUGE_VAL);
+    LedgerRow other = row;
+    for (const auto change : {+[](LedgerRow& r) { r.got = 1.01; }, +[](LedgerRow& r) { r.input = "x = 2"; },
+                              +[](LedgerRow& r) { r.tolerance = 0.02; }, +[](LedgerRow& r) { r.model = "float"; },
+                              +[](LedgerRow& r) { r.expected = 1.1; }, +[](LedgerRow& r) { r.got = std::nan(""); }}) {
+        other = row;
+        change(other);
+        EXPECT_FALSE(differences({row}, {other}).empty());
+    }
+    EXPECT_EQ(differences({row}, {}).size(), 1u);
+    EXPECT_THROW((void)read_ledger("{\"a\": 1}", "l"), Error);
+    // A step of half is the C library's; four are not.
+    other = row;
+    other.got = 1.001 + 0x1p-11;
+    EXPECT_TRUE(differences({row}, {other}).empty());
+}
+
+TEST(Exhibit, EveryListingIsFoundAndWhatIsBesideItIsNot) {
+    std::size_t found = 0;
+    const std::vector<ExhibitEntry> entries = exhibit_list();
+    for (const ExhibitEntry& entry : entries) {
+        const ExhibitResult result = measure(entry, kFastEffort, nullptr);
+        EXPECT_TRUE(result.found) << entry.name;
+        found += result.found ? 1 : 0;
+        EXPECT_NE(result.picture_printed.rgba, result.picture_mended.rgba) << entry.name << ": one cannot see it";
+    }
+    std::cout << "planted faults found " << found << " / " << entries.size() << "\n";
+    EXPECT_GE(entries.size(), 8u);
+    // A form that holds is not found, and a fault beside a fault neither.
+    ExhibitEntry sound = entries[4];
+    sound.printed = sound.mended;
+    EXPECT_FALSE(measure(sound, kFastEffort, nullptr).found);
+    ExhibitEntry hopeless = entries[4];
+    hopeless.mended = hopeless.printed;
+    EXPECT_FALSE(measure(hopeless, kFastEffort, nullptr).found);
+}
+
+class OnAContext : public harness::GlFixture {
+protected:
+    void SetUp() override {
+        GlFixture::SetUp();
+        if (IsSkipped()) return;
+        if (!caps().renders[static_cast<std::size_t>(gl::PixelFormat::rgba32f)] || caps().es_version < 30)
+            GTEST_SKIP() << "lanes are drawn into RGBA32F, which " << caps().renderer << " does not render";
+    }
+};
+
+TEST_F(OnAContext, EveryFunctionHoldsInMediumpAndHighp) {
+    const Drawing drawing{gl(), caps(), perf::probe_precision(gl(), caps())};
+    std::size_t drawn = 0;
+    for (const FunctionStability& one :
+         all_searched({.combinations = 4096, .drawn = 4096, .sweeps = 4, .sweep_points = 256}, &drawing)) {
+        for (const std::string& violation : one.violations) ADD_FAILURE() << violation;
+        drawn += tally_of(one, "mediump here").lanes;
+        EXPECT_EQ(tally_of(one, "mediump here").lanes, tally_of(one, "half").lanes);
+    }
+    EXPECT_GT(drawn, 200'000u);
+}
+
+TEST_F(OnAContext, ABreakIsSeenThereToo) {
+    const Drawing drawing{gl(), caps(), perf::probe_precision(gl(), caps())};
+    if (!drawing.probe.mediump.is_half()) GTEST_SKIP() << drawing.probe.sentence;
+    const Own own("//@domain x: 0..1000\nfloat square(float x) { float y = x * x; return y * 0.001; }\n");
+    const FunctionStability found = search(own.subject(), kFastEffort, &drawing);
+    EXPECT_GT(tally_of(found, "mediump here").not_finite, 1000u);
+    EXPECT_EQ(tally_of(found, "highp here").not_finite, 0u);
+}
+
+TEST_F(OnAContext, DomainsHoldWhatTheBuiltInScenesAskFor) {
+    const std::vector<SeenArgument> seen = see_arguments(gl(), caps());
+    for (const SeenArgument& one : seen)
+        EXPECT_GT(one.pixels, 0u) << one.function << "." << one.parameter << ": nothing was recorded";
+    for (const std::string& violation : violations_of(seen)) ADD_FAILURE() << violation;
+    EXPECT_GE(seen.size(), 16u);
+    SeenArgument outside = seen.at(3);
+    outside.declared.high = outside.high / 2.0;
+    EXPECT_EQ(violations_of({outside}).size(), 1u);
+}
+
+}  // namespace
+}  // namespace halfframe::stability

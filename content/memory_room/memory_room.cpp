@@ -60,10 +60,8 @@ Glass add_glass(Scene& scene, std::uint32_t seed) {
     picture.base_color_texture.wrap_u = picture.base_color_texture.wrap_v = Wrap::clamp;
     glass.picture = add_material(scene, picture);
     Material veil = blended("veil", glm::vec3(0.0f), {0.70f, 0.82f, 0.87f}, 0.22f);
-    veil.model = MaterialModel::unlit;
     glass.veil = add_material(scene, veil);
     Material shaft = blended("shaft", glm::vec3(0.0f), {1.60f, 1.95f, 2.05f}, 0.34f);
-    shaft.model = MaterialModel::unlit;
     glass.shaft = add_material(scene, shaft);
     return glass;
 }

@@ -26,7 +26,6 @@ Material metal(const char* name, const glm::vec3& specular, float roughness) {
 /// Black but for what it sends out.
 Material shining(const char* name, const glm::vec3& radiance) {
     Material material = plain(name, glm::vec3(0.0f), 0.6f);
-    material.model = MaterialModel::unlit;
     material.emissive = radiance;
     return material;
 }
@@ -34,7 +33,6 @@ Material shining(const char* name, const glm::vec3& radiance) {
 /// Light in the air: no lamp shines on it.
 Material blended(const char* name, const glm::vec3& radiance, float alpha) {
     Material material = plain(name, glm::vec3(0.0f), 1.0f);
-    material.model = MaterialModel::unlit;
     material.emissive = radiance;
     material.base_color.a = alpha;
     material.alpha_mode = AlphaMode::blend;

@@ -86,6 +86,9 @@ std::function<Shot()> in(const Units& units, Shot (*shot)()) {
 /// A few codes where a result falls between two: what other roundings of the same picture cost.
 constexpr FrameBound kRoundedInFloat{
     4, 4e-4, "roundings of 6e-8 turn a code where light falls between two, and one pixel of a texture: 2 / 0.0002"};
+/// In other units some places fall on the other side of the middle between two of the 65536 that 16 bits tell apart.
+constexpr FrameBound kStoredInOtherUnits{
+    4, 6e-3, "a vertex in the middle of two steps of 16 bits, 0.06 mm apart, goes to the other one: 2 / 0.0027"};
 constexpr FrameBound kRoundedInHalf{
     4, 0.04, "half steps of 2^-11 turn a code in every fiftieth pixel when the numbers of a lamp change: 2 / 0.018"};
 
@@ -96,7 +99,7 @@ constexpr const char* kLengthOfNormal =
 
 /// Against the origin: what floats can say of a place that far away is in these.
 void bound_moved(FrameCase& pair, const Units& units, double distance_km) {
-    pair.full = kRoundedInFloat;
+    pair.full = units.per_metre != 1.0 ? kStoredInOtherUnits : kRoundedInFloat;
     pair.half = kRoundedInHalf;
     if (units.per_metre != 1.0) return;  // the room's places are whole centimetres, which need no rounding there
     if (distance_km < 5.0) {
@@ -154,7 +157,7 @@ std::vector<FrameCase> unit_cases() {
         made.change = fmt::format("lengths in {}", units.name);
         made.plain = room;
         made.changed = in(units, room);
-        made.full = kRoundedInFloat;
+        made.full = kStoredInOtherUnits;
         made.half = kRoundedInHalf;
         list.push_back(made);
     }
@@ -212,7 +215,7 @@ std::vector<FrameCase> eye_cases() {
         small.plain = eye.shot;
         small.changed = in(kMillimetres, eye.shot);
         FrameCase bright = small;
-        small.full = kRoundedInFloat;
+        small.full = kStoredInOtherUnits;
         small.half = kRoundedInHalf;
         list.push_back(small);
         bright.change = fmt::format("{}, lights times 10^4", eye.place);

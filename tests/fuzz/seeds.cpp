@@ -99,8 +99,14 @@ json compressed() {
 json beside() {
     json document = triangle_document();
     document["buffers"][0]["uri"] = "d%61ta.bin";
-    document["animations"] = json::parse(R"([{"samplers": [{"input": 0, "output": 1}],
-        "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]}])");
+    std::string times, places;
+    append(times, std::vector<float>{0, 1});
+    append(places, std::vector<float>{0, 0, 0, 1, 2, 3});
+    const json sampler{{"input", add_accessor(document, add_view(document, times), 5126, "SCALAR", 2)},
+                       {"output", add_accessor(document, add_view(document, places), 5126, "VEC3", 2)}};
+    document["animations"] = json::array({{{"samplers", {sampler}}}});
+    document["animations"][0]["channels"] =
+        json::parse(R"([{"sampler": 0, "target": {"node": 0, "path": "translation"}}])");
     document["skins"] = json::parse(R"([{"joints": [0]}])");
     return document;
 }

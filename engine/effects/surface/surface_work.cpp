@@ -78,6 +78,12 @@ void sort_by_key(std::vector<Order>& order, std::vector<Order>& spare) {
     }
 }
 
+/// What a light is, as something to sort by: the brightest first, then by place.
+std::array<float, 4> order_of(const Scene& scene, int light) {
+    const Light& of = scene.lights[static_cast<std::size_t>(light)];
+    return {-(of.color.r + of.color.g + of.color.b), of.position.x, of.position.y, of.position.z};
+}
+
 /// How the shader reads one of a material's textures.
 TextureUse use_of(const Material& material, const SurfaceTexture& texture, bool decoded) {
     if (texture.define == "BASE_COLOR_MAP") return base_color_use(material, decoded);
@@ -211,8 +217,10 @@ void SurfaceWork::add_draw(Renderer& renderer, int index) {
         renderer.add_notice(fmt::format("{} lights reach {} and {} are drawn: the {} weakest are left out",
                                         left_out + SURFACE_LIGHT_LIMIT, surface.name, SURFACE_LIGHT_LIMIT, left_out));
     }
-    std::ranges::sort(lights);  // objects that the same lights reach share them, whichever is nearer
-    std::ranges::sort(possible);
+    // Objects that the same lights reach share them, whichever is nearer; and the order in the file moves no rounding.
+    std::ranges::sort(lights, [&](int a, int b) {
+        return std::tuple(order_of(renderer.scene(), a), a) < std::tuple(order_of(renderer.scene(), b), b);
+    });
     const bool low = renderer.tier_of(card_.name) == Tier::low;
     const SurfaceTextures textures =
         surface_textures(material, renderer.mesh(surface.mesh), spare_units(renderer), low);
@@ -230,9 +238,9 @@ void SurfaceWork::add_draw(Renderer& renderer, int index) {
     draw.uv_b_mapping = rows_of(textures.second);
     const bool decoded = !low && renderer.caps().srgb_textures;
     for (const SurfaceTexture& texture : textures.used) {
-        draw.textures.push_back({texture.unit, texture.packed ? renderer.packed_texture(texture.texture, texture.packed)
-                                                              : renderer.texture(texture.texture,
-                                                                                 use_of(material, texture, decoded))});
+        draw.textures.push_back(
+            {texture.unit, texture.packed ? renderer.packed_texture(texture.texture, texture.packed)
+                                          : renderer.texture(texture.texture, use_of(material, texture, decoded))});
     }
     draws_.push_back(std::move(draw));
 }
@@ -273,7 +281,8 @@ void SurfaceWork::set_variant(Renderer& renderer, const View& view, Variant& var
     gl::EntryPoints& gl = renderer.gl();
     const float unknown = std::numeric_limits<float>::quiet_NaN();  // equals nothing: all is told anew
     variant.told_light_set = -1;
-    variant.told_uv_range = variant.told_uv1_range = variant.told_direction_scale = variant.told_toward_eye = glm::vec4(unknown);
+    variant.told_uv_range = variant.told_uv1_range = variant.told_direction_scale = variant.told_toward_eye =
+        glm::vec4(unknown);
     renderer.use(*variant.program);
     set(gl, variant.ambient, glm::vec4(renderer.scene().ambient * view.exposure, 0.0f));
     set(gl, variant.parallel_eye, view.orthographic ? glm::vec4(direction_to_eye(view), 0.0f) : kNotParallel);
@@ -359,8 +368,8 @@ float SurfaceWork::length_scale_of(const Renderer& renderer, const View& view, c
 }
 
 int SurfaceWork::light_set_of(std::vector<int> lights) {
-    const auto known = std::ranges::find_if(
-        light_sets_, [&](const LightSet& set) { return !set.own && set.lights == lights; });
+    const auto known =
+        std::ranges::find_if(light_sets_, [&](const LightSet& set) { return !set.own && set.lights == lights; });
     if (known != light_sets_.end()) return static_cast<int>(known - light_sets_.begin());
     light_sets_.push_back({.lights = std::move(lights)});
     return static_cast<int>(light_sets_.size()) - 1;

@@ -200,6 +200,11 @@ void add_uses(const Scene& scene, std::vector<MeshStorage>& storages) {
     for (std::size_t i = 0; i < storages.size(); ++i) storages[i].world_scale = scale[i] > 0.0 ? scale[i] : 1.0;
 }
 
+/// What a sentence about one of `count` meshes ends with.
+std::string and_others(std::size_t count) {
+    return count < 2 ? "" : fmt::format("; {} more of {} keep theirs", count - 1, count);
+}
+
 /// Positions of every mesh: 16 bits of a box of its own, or of all that it touches.
 void choose_positions(const Scene& scene, std::vector<MeshStorage>& storages, std::vector<std::string>& notices) {
     const std::size_t count = scene.meshes.size();
@@ -208,6 +213,9 @@ void choose_positions(const Scene& scene, std::vector<MeshStorage>& storages, st
     std::vector<Box> boxes(count);
     std::vector<double> scales(count, 0.0);
     std::vector<char> moves(count, 0);
+    std::size_t kept = 0;
+    double worst_kept = 0.0;
+    std::string sentence;
     for (std::size_t i = 0; i < count; ++i) {
         const auto root = static_cast<std::size_t>(neighbours.root(static_cast<int>(i)));
         const Mesh& mesh = scene.meshes[i];
@@ -228,13 +236,17 @@ void choose_positions(const Scene& scene, std::vector<MeshStorage>& storages, st
             storages[i].positions = StreamFormat::bits16;
             storages[i].position_box = box;
         } else {
-            notices.push_back(fmt::format(
-                "mesh {} keeps 32-bit positions: 16 bits of its {:.1f} m would err by up to "
-                "{:.2f} mm (limit {} mm)",
+            ++kept;
+            if (worst <= worst_kept) continue;
+            worst_kept = worst;
+            sentence = fmt::format(
+                "mesh {} keeps 32-bit positions: 16 bits of the {:.1f} m that it and what it touches take would err by "
+                "up to {:.2f} mm (limit {} mm)",
                 scene.meshes[i].name, glm::length(glm::dvec3(box.high) - glm::dvec3(box.low)) * scales[root], worst,
-                kPositionLimit_mm));
+                kPositionLimit_mm);
         }
     }
+    if (kept > 0) notices.push_back(sentence + and_others(kept));
 }
 
 }  // namespace
@@ -302,6 +314,8 @@ std::vector<MeshStorage> plan_vertex_storage(const Scene& scene, VertexPrecision
     for (const Mesh& mesh : scene.meshes) storages.push_back(full_storage(mesh));
     add_uses(scene, storages);
     if (precision == VertexPrecision::full) return storages;
+    std::size_t kept = 0;
+    std::string sentence;
     for (std::size_t i = 0; i < storages.size(); ++i) {
         const Mesh& mesh = scene.meshes[i];
         MeshStorage& storage = storages[i];
@@ -311,12 +325,14 @@ std::vector<MeshStorage> plan_vertex_storage(const Scene& scene, VertexPrecision
         storage.uv1 = uv_format(mesh.uv1, storage.uv1_texels, storage.uv1_range);
         storage.colors = color_format(mesh.colors);
         if (storage.uv == StreamFormat::float32 || storage.uv1 == StreamFormat::float32) {
-            notices.push_back(
-                fmt::format("mesh {} keeps 32-bit texture coordinates: 16 bits of their range would err "
-                            "by more than {} texels",
-                            mesh.name, kUvLimit_texels));
+            if (++kept == 1) {
+                sentence = fmt::format(
+                    "mesh {} keeps 32-bit texture coordinates: 16 bits of their range would err by more than {} texels",
+                    mesh.name, kUvLimit_texels);
+            }
         }
     }
+    if (kept > 0) notices.push_back(sentence + and_others(kept));
     choose_positions(scene, storages, notices);
     return storages;
 }

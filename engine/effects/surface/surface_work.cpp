@@ -214,8 +214,11 @@ void SurfaceWork::add_draw(Renderer& renderer, int index) {
         }
     }
     if (left_out > 0) {
-        renderer.add_notice(fmt::format("{} lights reach {} and {} are drawn: the {} weakest are left out",
-                                        left_out + SURFACE_LIGHT_LIMIT, surface.name, SURFACE_LIGHT_LIMIT, left_out));
+        ++crowded_;
+        if (left_out > most_left_out_) {
+            most_left_out_ = left_out;
+            most_crowded_ = surface.name;
+        }
     }
     // Objects that the same lights reach share them, whichever is nearer; and the order in the file moves no rounding.
     std::ranges::sort(lights, [&](int a, int b) {
@@ -256,6 +259,13 @@ SurfaceWork::SurfaceWork(Renderer& renderer, const EffectCard& card, SurfacePart
     for (std::size_t i = 0; i < scene.surfaces.size(); ++i) {
         const bool blends = material_of(renderer, scene.surfaces[i]).alpha_mode == AlphaMode::blend;
         if (blends == (part == SurfacePart::transparent)) add_draw(renderer, static_cast<int>(i));
+    }
+    if (crowded_ > 0) {
+        const std::string others =
+            crowded_ < 2 ? "" : fmt::format("; {} more of {} surfaces lose some", crowded_ - 1, crowded_);
+        renderer.add_notice(fmt::format("{} lights reach {} and {} are drawn: the {} weakest are left out{}",
+                                        most_left_out_ + SURFACE_LIGHT_LIMIT, most_crowded_, SURFACE_LIGHT_LIMIT,
+                                        most_left_out_, others));
     }
     depth_is_there_ = std::ranges::any_of(renderer.plan().passes, [](const Pass& pass) {
         return pass.effect != "surface" && pass.writes_depth && pass.order == PassOrder::depth;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -102,6 +103,9 @@ private:
     void draw_one(Renderer& renderer, const View& view, Draw& draw);
 
     const EffectCard& card_;
+    int crowded_ = 0;  ///< surfaces that more lights reach than are drawn, and the worst of them
+    int most_left_out_ = 0;
+    std::string most_crowded_;
     SurfacePart part_;
     const Light* sun_ = nullptr;
     std::vector<Variant> variants_;

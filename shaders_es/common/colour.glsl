@@ -22,5 +22,11 @@ vec3 linear_from_srgb(vec3 s) { return s * (s * (s * 0.305306011 + 0.682171111) 
 #endif
 
 // IEC 61966-2-1, exact. linear 0..1; the max() keeps pow from 0.
+//@domain x: 0..1
+//@exempt half, half_flushed, es_minimum: at most 3 times; 0.055 is taken from 0.1 there: 0.07 display codes
+//@promise in 0..1; rising x; where x == 0.0: result == 0.0
 float srgb_from_linear(float x) { return x <= 0.0031308 ? x * 12.92 : 1.055 * pow(max(x, 1e-4), 1.0 / 2.4) - 0.055; }
+//@domain x: 0..1
+//@exempt half, half_flushed, es_minimum: at most 3 times; 0.055 is taken from 0.1 there: 0.07 display codes
+//@promise in 0..1; rising x
 vec3 srgb_from_linear(vec3 x) { return vec3(srgb_from_linear(x.r), srgb_from_linear(x.g), srgb_from_linear(x.b)); }

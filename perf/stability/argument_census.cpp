@@ -67,7 +67,9 @@ constexpr std::array kRecordings{
     Recording{"fresnel_glossy", "n_dot_v", HALFFRAME_RECORD(HALFFRAME_SEE("n_dot_v"), "", "")},
     Recording{
         "power_from_roughness", "roughness",
-        HALFFRAME_RECORD("\n#ifdef METALLIC_ROUGHNESS_MAP\n" HALFFRAME_SEE("factors.y * packed_factors.y") "\n#endif\n",
+        HALFFRAME_RECORD("\n#ifdef ONE_FETCH\n" HALFFRAME_SEE("factors.y * packed_map.a")
+                             "\n#elif defined(METALLIC_ROUGHNESS_MAP)\n" HALFFRAME_SEE("factors.y * packed_factors.g")
+                                 "\n#endif\n",
                          "", "")},
     Recording{"smoothness_from_power", "power", HALFFRAME_RECORD(HALFFRAME_SEE("power"), "", "")},
     Recording{"distance_falloff", "distance_squared", HALFFRAME_RECORD("", "", HALFFRAME_SEE("distance_squared"))},

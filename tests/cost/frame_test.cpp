@@ -157,7 +157,7 @@ TEST(Frames, AProfileOfTheUsersStandsAlone) {
 TEST(Frames, WhyListsInstructionsUnderTheirLines) {
     const Answer why = halfframe({"cost", "test_room", "--size", "64x36", "--why", "tone_map"});
     EXPECT_EQ(why.code, 0) << why.err;
-    expect_in(why.out, "tone_map/tone_map.glsl:8");
+    expect_in(why.out, "tone_map/tone_map.glsl:11");
     expect_in(why.out, "TONE_MAP_B * x / (x + TONE_MAP_A)");
     expect_in(why.out, "half divide vec3");
     expect_in(why.out, "no mediump hardware was measured");

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/error.h"
+#include "engine/frame/draw_state.h"
 #include "engine/frame/frame_plan.h"
 #include "engine/frame/image.h"
 #include "engine/frame/moving_meshes.h"
@@ -37,27 +38,7 @@ struct CensusRow {
     std::uint64_t negative = 0;  ///< values below 0 (reported, not a failure)
 };
 
-/// What drawing does with the colour that is there already.
-enum class Blend : std::uint8_t {
-    none,      ///< replaces it
-    alpha,     ///< source alpha over destination
-    add,       ///< source + destination
-    multiply,  ///< source * destination
-    screen,    ///< source + destination * (1 - source), for display values
-};
-
-/// Texture units, told apart so that neighbours in a list of draws share bindings. 8 is the minimum of ES 2.0.
-enum TextureUnit : int {
-    kBaseColorUnit = 0,  ///< surface's; also the first source of a full-screen pass
-    kMetallicRoughnessUnit = 1,
-    kNormalUnit = 2,
-    kEmissiveUnit = 3,
-    kReflectionUnit = 4,  ///< environment
-    kRoughReflectionUnit = 5,
-    kShadowUnit = 6,
-    kBloomUnit = 7,
-    kJointUnit = 15,  ///< joint palettes of the vertex stage; ES 3.0 only, which has 32
-};
+class RenderTargets;
 
 class Renderer {
 public:
@@ -124,7 +105,7 @@ public:
 
     // For effects, while drawing: no allocation, no repeated call for a state that is set already.
     void use(const gl::Program& program);
-    void bind_texture(int unit, std::uint32_t texture);
+    void bind_texture(int unit, std::uint32_t texture);  ///< two-dimensional
     void bind_cube(int unit, std::uint32_t texture);
     [[nodiscard]] std::uint32_t target_texture(int target_index) const;
     /// Averages the samples of a multisampled target into `to_target`, which the pass being drawn writes.
@@ -133,25 +114,20 @@ public:
     void draw_mesh(const DrawMesh& mesh);
     /// Draws a surface as its pose has it, with a program made with its skin_define().
     void draw_surface(int surface, int skin_location);
-    void set_depth(bool test, bool write, std::uint32_t function);
-    void set_cull(bool on);
-    void set_blend(Blend blend);
-    void set_color_mask(bool on);
+    void set_depth(bool test, bool write, std::uint32_t function) { state_.set_depth(test, write, function); }
+    void set_cull(bool on) { state_.set_cull(on); }
+    void set_blend(Blend blend) { state_.set_blend(blend); }
+    void set_color_mask(bool on) { state_.set_color_mask(on); }
 
 private:
-    struct Targets;
-    struct State;
-    void allocate_targets();
-    void attach(const gl::Framebuffer& framebuffer, const Pass& pass);
+    void make_full_screen_triangle();
     void make_works();
-    void bind(std::uint32_t target, int unit, std::uint32_t texture);
     EffectWork* work_of(const std::string& effect);
     void adopt_insertions(const std::string& prefix, gl::Program& program);
     void begin(const Pass& pass, std::uint32_t framebuffer);
     void finish_frame();
     void draw_part(const DrawMesh& mesh, const DrawPart& part);
     void update_moving_meshes();
-    void enable_attributes(unsigned wanted);
     void draw_passes(const View& view, PassTimer* timer);
 
     gl::EntryPoints& gl_;
@@ -161,8 +137,11 @@ private:
     FramePlan plan_;
     const Scene* scene_ = nullptr;
     std::vector<DrawMesh> meshes_;
-    std::unique_ptr<Targets> targets_;
-    std::unique_ptr<State> state_;
+    std::unique_ptr<RenderTargets> targets_;
+    gl::Buffer triangle_;  ///< over the whole target
+    gl::VertexArray triangle_array_;
+    gl::VertexArray loose_array_;  ///< core desktop profile: something must be bound while buffers are set up
+    DrawState state_;
     std::unique_ptr<TextureStore> textures_;
     std::unique_ptr<MovingMeshes> moving_;  ///< nothing while the scene has nothing that changes its shape
     struct Work {

@@ -170,6 +170,19 @@ struct Accounting<Call::DrawElements> {
 
 }  // namespace
 
+const char* error_name(std::uint32_t error) {
+    switch (error) {
+        case GL_NO_ERROR: return "";
+        case GL_INVALID_ENUM: return "GL_INVALID_ENUM";
+        case GL_INVALID_VALUE: return "GL_INVALID_VALUE";
+        case GL_INVALID_OPERATION: return "GL_INVALID_OPERATION";
+        case GL_INVALID_FRAMEBUFFER_OPERATION: return "GL_INVALID_FRAMEBUFFER_OPERATION";
+        case GL_OUT_OF_MEMORY: return "GL_OUT_OF_MEMORY";
+        case kContextLost: return "GL_CONTEXT_LOST";
+        default: return "an unknown GL error";
+    }
+}
+
 EntryPoints::EntryPoints(const Loader& loader) {
     expect(static_cast<bool>(loader), "the loader of GL functions is empty");
     const auto get_string = reinterpret_cast<const GLubyte*(GL_APIENTRYP)(GLenum)>(loader("glGetString"));

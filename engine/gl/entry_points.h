@@ -19,9 +19,14 @@ namespace halfframe::gl {
 
 class CallTrace;
 
+constexpr std::uint32_t kContextLost = 0x0507;  ///< GL_CONTEXT_LOST, ES 3.2 and KHR_robustness
+
 /// Returns the address of a GL function, or nullptr. eglGetProcAddress, OSMesaGetProcAddress, glfwGetProcAddress and
 /// any host's own function fit.
 using Loader = std::function<void*(const char*)>;
+
+/// "GL_INVALID_OPERATION" for what glGetError() returns; empty for GL_NO_ERROR.
+[[nodiscard]] const char* error_name(std::uint32_t error);
 
 /// Since which version, or through which extension, an entry point may be called.
 enum class Since : std::uint8_t {

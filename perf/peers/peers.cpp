@@ -145,7 +145,8 @@ int main(int argument_count, char** arguments) {
     options.request.folder = "out/peers";
     app.add_option("-o,--output", options.request.folder, "Folder for pictures, logs and peers.json")
         ->type_name("DIR")
-        ->capture_default_str();
+        ->capture_default_str()
+        ->take_last();  // ./peers names one, and a user may name another
     try {
         app.parse(argument_count, arguments);
     } catch (const CLI::Success& done) {

@@ -11,10 +11,10 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/error.h"
-#include "perf/cli/child_run.h"
 #include "perf/cli/command.h"
 #include "perf/cli/scene_options.h"
 #include "perf/cli/terminal.h"
+#include "perf/process/child_process.h"
 #include "perf/report/atomic_file.h"
 #include "perf/report/contact_sheet.h"
 #include "perf/report/picture_file.h"
@@ -76,9 +76,9 @@ private:
 };
 
 /// The sentence that the child ended with, without the name of the command and the folder of the scene.
-std::string complaint(const ChildRun& run, const std::string& scene) {
+std::string complaint(const process::ChildResult& run, const std::string& scene) {
     constexpr std::string_view kStart = "halfframe: ";
-    std::string words = run.err;
+    std::string words = run.errors;
     if (const std::size_t at = words.rfind(kStart); at != std::string::npos) words.erase(0, at + kStart.size());
     const std::string folder = fs::path(scene).parent_path().string();
     for (std::size_t at = folder.empty() ? std::string::npos : words.find(folder + "/"); at != std::string::npos;
@@ -213,11 +213,14 @@ private:
 
     [[nodiscard]] perf::SheetCell draw_one(const std::string& scene, const std::string& label,
                                            const std::string& picture) const {
-        std::vector<std::string> words{"render", "--json",    "-o",
-                                       picture,  "--measure", std::to_string(measured_frames_)};
+        process::ChildCommand command{.arguments = {"/proc/self/exe", "render", "--json", "-o", picture, "--measure",
+                                                    std::to_string(measured_frames_)},
+                                      .limit_s = limit_s_,
+                                      .between = [](int) { stop_if_interrupted(); }};
+        std::vector<std::string>& words = command.arguments;
         for (const std::string& word : option_words(options_)) words.push_back(word);
         words.push_back(scene.starts_with('-') ? "./" + scene : scene);
-        const ChildRun run = run_self(words, limit_s_, stop_if_interrupted);
+        const process::ChildResult run = process::run_child(command);
         perf::SheetCell cell;
         cell.name = label;
         cell.verdict = run.timed_out     ? "timeout"
@@ -227,7 +230,7 @@ private:
         // A failed check (1) draws its picture; after a crash a file may be there and is not to be trusted.
         if (run.exit_code >= 0 && fs::exists(picture, ignored)) {
             cell.picture = perf::read_png(picture);
-            cell.ms = frame_ms(run.out);
+            cell.ms = frame_ms(run.output);
             fs::remove(picture, ignored);
             return cell;
         }

@@ -5,19 +5,19 @@
 
 #include <nlohmann/json.hpp>
 
-#include "tests/harness/child_process.h"
+#include "perf/process/child_process.h"
 
 namespace halfframe::harness {
 namespace {
 
-ChildResult accuracy(const std::vector<std::string>& arguments) {
-    ChildCommand command{.arguments = {HALFFRAME_BINARY_DIR "/halfframe", "accuracy"}};
+process::ChildResult accuracy(const std::vector<std::string>& arguments) {
+    process::ChildCommand command{.arguments = {HALFFRAME_BINARY_DIR "/halfframe", "accuracy"}};
     command.arguments.insert(command.arguments.end(), arguments.begin(), arguments.end());
-    return run_child(command);
+    return process::run_child(command);
 }
 
 TEST(AccuracyCommand, JsonAloneIsOnStandardOutput) {
-    const ChildResult result = accuracy({"tone_map", "sky", "--json"});
+    const process::ChildResult result = accuracy({"tone_map", "sky", "--json"});
     ASSERT_EQ(result.exit_code, 0) << result.story();
     EXPECT_TRUE(result.errors.empty()) << result.errors;
     const auto functions = nlohmann::json::parse(result.output).at("functions");
@@ -33,7 +33,7 @@ TEST(AccuracyCommand, JsonAloneIsOnStandardOutput) {
 }
 
 TEST(AccuracyCommand, TheTableHasARowForEachFunction) {
-    const ChildResult result = accuracy({"tone_map"});
+    const process::ChildResult result = accuracy({"tone_map"});
     ASSERT_EQ(result.exit_code, 0) << result.story();
     for (const char* words : {"inverse_tone_map", "method", "ES min", "hold", "Inputs, and the worst of them"}) {
         EXPECT_NE(result.output.find(words), std::string::npos) << words << "\n" << result.output;
@@ -45,7 +45,7 @@ TEST(AccuracyCommand, TheTableHasARowForEachFunction) {
 TEST(AccuracyCommand, ModelsFollowTheFunctionsAndCanBeDrawn) {
     const std::string maps = testing::TempDir() + "halfframe_accuracy_maps.png";
     std::filesystem::remove(maps);
-    const ChildResult result = accuracy({"surface", "--json", "--maps", maps});
+    const process::ChildResult result = accuracy({"surface", "--json", "--maps", maps});
     ASSERT_EQ(result.exit_code, 0) << result.story();
     const auto report = nlohmann::json::parse(result.output);
     for (const auto& element : report.at("models")) {
@@ -56,13 +56,13 @@ TEST(AccuracyCommand, ModelsFollowTheFunctionsAndCanBeDrawn) {
     EXPECT_EQ(report.at("models").size(), 5u);
     EXPECT_GT(std::filesystem::file_size(maps), 1000u);
     std::filesystem::remove(maps);
-    const ChildResult none = accuracy({"sky", "--maps", maps});
+    const process::ChildResult none = accuracy({"sky", "--maps", maps});
     EXPECT_EQ(none.exit_code, 2) << none.story();
     EXPECT_FALSE(std::filesystem::exists(maps));
 }
 
 TEST(AccuracyCommand, TheContextIsNamedAndItsFiguresAreThere) {
-    const ChildResult result = accuracy({"--json"});
+    const process::ChildResult result = accuracy({"--json"});
     ASSERT_EQ(result.exit_code, 0) << result.story();
     const auto report = nlohmann::json::parse(result.output);
     if (report.at("context").at("driver").is_null()) GTEST_SKIP() << report.at("context").at("missing");
@@ -76,32 +76,32 @@ TEST(AccuracyCommand, TheContextIsNamedAndItsFiguresAreThere) {
 }
 
 TEST(AccuracyCommand, WithoutADrawableContextTheReasonIsPrinted) {
-    const ChildResult result = accuracy({"tone_map", "--device", "es2-minimum"});
+    const process::ChildResult result = accuracy({"tone_map", "--device", "es2-minimum"});
     ASSERT_EQ(result.exit_code, 0) << result.story();
     EXPECT_NE(result.output.find("nothing was drawn: texelFetch needs ES 3.0"), std::string::npos) << result.output;
-    const ChildResult json = accuracy({"tone_map", "--device", "es2-minimum", "--json"});
+    const process::ChildResult json = accuracy({"tone_map", "--device", "es2-minimum", "--json"});
     const auto report = nlohmann::json::parse(json.output);
     EXPECT_TRUE(report.at("functions").at(0).at("context_gap").is_null());
     EXPECT_FALSE(report.at("context").at("missing").get<std::string>().empty());
 }
 
 TEST(AccuracyCommand, WholeFramesHaveATableOfTheirOwn) {
-    const ChildResult refused = accuracy({"tone_map", "--frames"});
+    const process::ChildResult refused = accuracy({"tone_map", "--frames"});
     EXPECT_EQ(refused.exit_code, 2) << refused.story();
-    const ChildResult poor = accuracy({"--frames", "--device", "es2-minimum"});
+    const process::ChildResult poor = accuracy({"--frames", "--device", "es2-minimum"});
     EXPECT_EQ(poor.exit_code, 2) << poor.story();
     EXPECT_NE(poor.errors.find("RGBA32F"), std::string::npos) << poor.errors;
 }
 
 TEST(AccuracyCommand, AnUnknownEffectIs2AndNamesTheNearest) {
-    const ChildResult result = accuracy({"tonemap"});
+    const process::ChildResult result = accuracy({"tonemap"});
     EXPECT_EQ(result.exit_code, 2) << result.story();
     EXPECT_TRUE(result.output.empty()) << result.output;
     EXPECT_NE(result.errors.find("did you mean 'tone_map'"), std::string::npos) << result.errors;
 }
 
 TEST(AccuracyCommand, AnEffectWithoutFunctionsIs2AndNamesThoseThatHaveSome) {
-    const ChildResult result = accuracy({"depth_prepass"});
+    const process::ChildResult result = accuracy({"depth_prepass"});
     EXPECT_EQ(result.exit_code, 2) << result.story();
     EXPECT_NE(result.errors.find("these have: "), std::string::npos) << result.errors;
 }

@@ -1,11 +1,7 @@
 // Writing small glTF files.
 #include "tests/content/temporary_gltf.h"
 
-#include <atomic>
-#include <fstream>
-
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include "content/content.h"
 #include "engine/error.h"
@@ -28,23 +24,6 @@ std::string from_hex(std::string_view hex) {
 }
 
 }  // namespace
-
-TemporaryFolder::TemporaryFolder() {
-    static std::atomic<int> number{0};
-    path_ = std::filesystem::temp_directory_path() /
-            ("halfframe_content_" + std::to_string(getpid()) + "_" + std::to_string(number++));
-    std::filesystem::create_directories(path_);
-}
-
-TemporaryFolder::~TemporaryFolder() {
-    std::error_code ignored;  // a folder that stays behind is no reason to fail
-    std::filesystem::remove_all(path_, ignored);
-}
-
-std::filesystem::path TemporaryFolder::write(const std::string& name, const std::string& bytes) const {
-    std::ofstream(path_ / name, std::ios::binary) << bytes;
-    return path_ / name;
-}
 
 std::string base64(const std::string& bytes) {
     std::string text;

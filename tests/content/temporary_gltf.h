@@ -9,21 +9,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tests/harness/temporary_folder.h"
+
 namespace halfframe::tests {
 
-class TemporaryFolder {
-public:
-    TemporaryFolder();
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    ~TemporaryFolder();
-    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-    /// Writes bytes and returns the whole path.
-    std::filesystem::path write(const std::string& name, const std::string& bytes) const;
-
-private:
-    std::filesystem::path path_;
-};
+using harness::TemporaryFolder;
 
 template <typename T>
 void append(std::string& bytes, const std::vector<T>& values) {

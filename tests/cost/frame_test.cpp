@@ -11,8 +11,8 @@
 
 #include "content/data_files.h"
 #include "perf/cost/effect_table.h"
+#include "perf/process/child_process.h"
 #include "tests/cost/json_schema.h"
-#include "tests/harness/child_process.h"
 
 namespace halfframe::cost {
 namespace {
@@ -28,7 +28,7 @@ struct Answer {
 
 Answer halfframe(std::vector<std::string> arguments, const Environment& environment = {}) {
     arguments.insert(arguments.begin(), HALFFRAME_COMMAND);
-    harness::ChildResult result = harness::run_child({.arguments = arguments, .environment = environment});
+    process::ChildResult result = process::run_child({.arguments = arguments, .environment = environment});
     return {result.exit_code, std::move(result.output), std::move(result.errors)};
 }
 

@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "engine/error.h"
+#include "perf/process/child_process.h"
 #include "tests/gl/ground.h"
 #include "tests/gl/sample_frame.h"
-#include "tests/harness/child_process.h"
 
 namespace halfframe::gl {
 namespace {
@@ -35,9 +35,9 @@ TEST_F(CallTraceTest, IsTheSameInTwoRunsOfOneProcess) {
 }
 
 TEST(CallTraceProcesses, AreTheSameToTheByte) {
-    const harness::ChildResult first = harness::run_child({.arguments = {HALFFRAME_TRACE_SAMPLE}});
+    const process::ChildResult first = process::run_child({.arguments = {HALFFRAME_TRACE_SAMPLE}});
     if (first.exit_code != 0) GTEST_SKIP() << "the sample found no context: " << first.errors;
-    const harness::ChildResult second = harness::run_child({.arguments = {HALFFRAME_TRACE_SAMPLE}});
+    const process::ChildResult second = process::run_child({.arguments = {HALFFRAME_TRACE_SAMPLE}});
     EXPECT_NE(first.output.find("glDrawElements"), std::string::npos) << first.output;
     EXPECT_EQ(first.output, second.output);
 }

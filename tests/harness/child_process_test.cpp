@@ -1,5 +1,5 @@
 // What the command tests rely on: both streams, the exit code, the environment, and the time limit.
-#include "tests/harness/child_process.h"
+#include "perf/process/child_process.h"
 
 #include <chrono>
 #include <csignal>
@@ -10,13 +10,13 @@
 namespace halfframe::harness {
 namespace {
 
-ChildResult shell(const std::string& script, ChildCommand command = {}) {
+process::ChildResult shell(const std::string& script, process::ChildCommand command = {}) {
     command.arguments = {"sh", "-c", script};
-    return run_child(command);
+    return process::run_child(command);
 }
 
 TEST(ChildProcess, BothStreamsAndTheExitCodeComeBack) {
-    const ChildResult result = shell("echo out; echo err >&2; exit 3");
+    const process::ChildResult result = shell("echo out; echo err >&2; exit 3");
     EXPECT_EQ(result.exit_code, 3);
     EXPECT_EQ(result.output, "out\n");
     EXPECT_EQ(result.errors, "err\n");
@@ -27,7 +27,7 @@ TEST(ChildProcess, BothStreamsAndTheExitCodeComeBack) {
 TEST(ChildProcess, TheEnvironmentIsOursWithChanges) {
     ASSERT_EQ(setenv("HALFFRAME_CHILD_KEPT", "kept", 1), 0);
     ASSERT_EQ(setenv("HALFFRAME_CHILD_GONE", "gone", 1), 0);
-    const ChildResult result =
+    const process::ChildResult result =
         shell("echo \"$HALFFRAME_CHILD_KEPT $HALFFRAME_CHILD_NEW ${HALFFRAME_CHILD_GONE-unset}\"",
               {.environment = {{"HALFFRAME_CHILD_NEW", "a b=c"}, {"HALFFRAME_CHILD_GONE", std::nullopt}}});
     EXPECT_EQ(result.output, "kept a b=c unset\n");
@@ -35,27 +35,27 @@ TEST(ChildProcess, TheEnvironmentIsOursWithChanges) {
 
 TEST(ChildProcess, MuchOutputOnBothStreamsDoesNotBlock) {
     // 300 kB on each: several times a pipe's 64 kB.
-    const ChildResult result = shell("head -c 300000 /dev/zero; head -c 300000 /dev/zero >&2");
+    const process::ChildResult result = shell("head -c 300000 /dev/zero; head -c 300000 /dev/zero >&2");
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_EQ(result.output.size(), 300000u);
     EXPECT_EQ(result.errors.size(), 300000u);
 }
 
 TEST(ChildProcess, TheTimeLimitEndsTheChildAndItsChildren) {
-    const ChildResult result = shell("echo begun; sleep 600 & sleep 600; echo never", {.limit_s = 0.5});
+    const process::ChildResult result = shell("echo begun; sleep 600 & sleep 600; echo never", {.limit_s = 0.5});
     EXPECT_TRUE(result.timed_out);
     EXPECT_EQ(result.signal, SIGKILL);
     EXPECT_EQ(result.output, "begun\n");
 }
 
 TEST(ChildProcess, ASignalIsToldApartFromAnExitCode) {
-    const ChildResult result = shell("kill -TERM $$");
+    const process::ChildResult result = shell("kill -TERM $$");
     EXPECT_EQ(result.signal, SIGTERM);
     EXPECT_EQ(result.exit_code, -1);
 }
 
 TEST(ChildProcess, AProgramThatDoesNotExistEndsWith127) {
-    EXPECT_EQ(run_child({.arguments = {"/no/such/program"}}).exit_code, 127);
+    EXPECT_EQ(process::run_child({.arguments = {"/no/such/program"}}).exit_code, 127);
     EXPECT_EQ(shell("true", {.folder = "/no/such/folder"}).exit_code, 127);
 }
 

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "tests/harness/child_process.h"
+#include "perf/process/child_process.h"
 #include "tests/harness/house_rules.h"
 
 namespace halfframe::harness {
@@ -29,11 +29,11 @@ std::vector<std::string> include_arguments(const std::filesystem::path& root) {
 
 /// The compiler's words about `file` alone, empty when there is nothing to say. Includes are rooted at `root`.
 std::string words_about(const std::filesystem::path& root, const std::filesystem::path& file) {
-    ChildCommand command{
+    process::ChildCommand command{
         .arguments = {HALFFRAME_COMPILER, "-std=c++20", "-fsyntax-only", "-Wall", "-Wextra", "-Werror", "-x", "c++"}};
     for (const std::string& argument : include_arguments(root)) command.arguments.push_back(argument);
     command.arguments.push_back((root / file).string());
-    const ChildResult result = run_child(command);
+    const process::ChildResult result = process::run_child(command);
     // GCC says "#pragma once in main file" for every header compiled as a file, and has no switch for it.
     std::string words;
     std::istringstream lines(result.errors);

@@ -8,8 +8,9 @@
 
 #include "content/content.h"
 #include "engine/frame/effect_card.h"
-#include "tests/harness/child_process.h"
+#include "perf/process/child_process.h"
 #include "tests/harness/house_rules.h"
+#include "tests/harness/temporary_folder.h"
 
 namespace halfframe::harness {
 namespace {
@@ -25,21 +26,6 @@ const SourceFile* find(const std::vector<SourceFile>& files, const std::string& 
     }
     return nullptr;
 }
-
-/// A folder of this process that goes away with the value.
-struct TemporaryFolder {
-    std::filesystem::path path =
-        std::filesystem::temp_directory_path() / ("halfframe_house_rules_" + std::to_string(getpid()));
-    TemporaryFolder() { std::filesystem::create_directories(path); }
-    ~TemporaryFolder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path, ignored);
-    }
-    void write(const std::string& file, const std::string& text) const {
-        std::filesystem::create_directories((path / file).parent_path());
-        std::ofstream(path / file) << text;
-    }
-};
 
 void expect_none(const Violations& violations) { EXPECT_TRUE(violations.empty()) << joined(violations); }
 
@@ -61,11 +47,11 @@ TEST(ReadTree, FindsTheRoomsAndLeavesOutWhatIsBuilt) {
     folder.write(".git/c.md", "hidden\n");
     folder.write("out/d.html", "written\n");
     folder.write("docs/images/e.png", "not text");
-    const std::vector<SourceFile> files = read_tree(folder.path);
+    const std::vector<SourceFile> files = read_tree(folder.path());
     ASSERT_EQ(files.size(), 1u);
     EXPECT_EQ(files[0].path, "engine/a.h");
     EXPECT_EQ(files[0].text, "// A.\n");
-    EXPECT_EQ(paths_of(folder.path).count("docs/images/e.png"), 1u);
+    EXPECT_EQ(paths_of(folder.path()).count("docs/images/e.png"), 1u);
 }
 
 TEST(IncludeDirections, HoldInTheRepository) { expect_none(include_violations(repository())); }
@@ -220,7 +206,7 @@ TEST(Readme, ItsCommandTableIsReadRightly) {
 TEST(Readme, ItsCommandTableIsThatOfTheCommand) {
     const std::filesystem::path command = HALFFRAME_COMMAND;
     if (command.empty() || !std::filesystem::exists(command)) GTEST_SKIP() << "the halfframe command is not built";
-    const ChildResult help = run_child({.arguments = {command.string(), "--help"}});
+    const process::ChildResult help = process::run_child({.arguments = {command.string(), "--help"}});
     ASSERT_EQ(help.exit_code, 0) << help.story();
     const std::vector<std::string> built = commands_of_help(help.output);
     ASSERT_FALSE(built.empty()) << help.story();

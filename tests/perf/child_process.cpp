@@ -1,50 +1,21 @@
-// Runs a command as a child process, on fork and exec: limits and signals belong to it alone.
+// A child process of the kind that the command's tests start.
 #include "tests/perf/child_process.h"
 
-#include <fcntl.h>
 #include <signal.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <algorithm>
 #include <chrono>
-#include <cstdlib>
 #include <fstream>
 #include <sstream>
-#include <stdexcept>
-#include <thread>
+
+#include "perf/process/child_process.h"
 
 namespace halfframe::test {
 namespace {
 
-[[noreturn]] void become(const std::string& command, const std::vector<std::string>& arguments,
-                         const ChildOptions& options, const std::string& out, const std::string& err) {
-    for (const auto& [name, value] : options.environment) {
-        ::setenv(name.c_str(), value.c_str(), 1);
-    }
-    const int out_file = ::open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-    const int err_file = ::open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-    const int in_file = ::open("/dev/null", O_RDONLY);
-    ::dup2(in_file, STDIN_FILENO);
-    ::dup2(out_file, STDOUT_FILENO);
-    ::dup2(err_file, STDERR_FILENO);
-    if (options.file_size_limit) {
-        const rlimit limit{*options.file_size_limit, *options.file_size_limit};
-        ::setrlimit(RLIMIT_FSIZE, &limit);
-    }
-    std::vector<char*> words;
-    words.push_back(const_cast<char*>(command.c_str()));
-    for (const std::string& argument : arguments) {
-        words.push_back(const_cast<char*>(argument.c_str()));
-    }
-    words.push_back(nullptr);
-    ::execv(command.c_str(), words.data());
-    ::_exit(127);
-}
+using Clock = std::chrono::steady_clock;
 
 /// Does the process have a handler for SIGINT? (SigCgt of /proc/PID/status; bit n-1 is signal n.)
-bool catches_interrupt(pid_t child) {
+bool catches_interrupt(int child) {
     std::ifstream status("/proc/" + std::to_string(child) + "/status");
     std::string line;
     while (std::getline(status, line)) {
@@ -55,37 +26,17 @@ bool catches_interrupt(pid_t child) {
     return false;
 }
 
-void interrupt(pid_t child, int after_ms) {
-    for (int tries = 0; tries < 20000 && !catches_interrupt(child); ++tries) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(after_ms));
-    ::kill(child, SIGINT);
+/// Sends SIGINT once, `after` the child began to catch it.
+std::function<void(int)> interruption(std::chrono::milliseconds after) {
+    return [after, caught = std::optional<Clock::time_point>(), sent = false](int child) mutable {
+        if (!caught && catches_interrupt(child)) caught = Clock::now();
+        if (!caught || sent || Clock::now() < *caught + after) return;
+        ::kill(child, SIGINT);
+        sent = true;
+    };
 }
 
 }  // namespace
-
-TemporaryFolder::TemporaryFolder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "halfframe_test_XXXXXX").string();
-    if (::mkdtemp(pattern.data()) == nullptr) {
-        throw std::runtime_error("cannot make a temporary folder like " + pattern);
-    }
-    path_ = pattern;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-}
-
-std::vector<std::string> TemporaryFolder::names() const {
-    std::vector<std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator(path_)) {
-        names.push_back(entry.path().filename().string());
-    }
-    std::sort(names.begin(), names.end());
-    return names;
-}
 
 std::string file_text(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
@@ -96,26 +47,16 @@ std::string file_text(const std::filesystem::path& path) {
 
 ChildResult run_child(const std::string& command, const std::vector<std::string>& arguments,
                       const ChildOptions& options) {
-    const TemporaryFolder folder;
-    const std::string out = options.standard_output.value_or((folder / "out").string());
-    const std::string err = (folder / "err").string();
-    const pid_t child = ::fork();
-    if (child < 0) {
-        throw std::runtime_error("fork failed");
-    }
-    if (child == 0) {
-        become(command, arguments, options, out, err);
-    }
-    if (options.interrupt_after_ms) {
-        interrupt(child, *options.interrupt_after_ms);
-    }
-    int status = 0;
-    ::waitpid(child, &status, 0);
-    ChildResult result;
-    result.code = WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
-    result.out = options.standard_output ? "" : file_text(out);
-    result.err = file_text(err);
-    return result;
+    process::ChildCommand child{.arguments = {command}, .limit_s = 600.0};
+    child.arguments.insert(child.arguments.end(), arguments.begin(), arguments.end());
+    child.environment.assign(options.environment.begin(), options.environment.end());
+    if (options.standard_output) child.standard_output = *options.standard_output;
+    child.file_size_limit = options.file_size_limit;
+    if (options.interrupt_after_ms)
+        child.between = interruption(std::chrono::milliseconds(*options.interrupt_after_ms));
+    const process::ChildResult ended = process::run_child(child);
+    return {
+        .code = ended.signal != 0 ? 1000 + ended.signal : ended.exit_code, .out = ended.output, .err = ended.errors};
 }
 
 }  // namespace halfframe::test

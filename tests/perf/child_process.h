@@ -1,4 +1,4 @@
-// Runs a command as a child process and keeps what it said.
+// The command's tests in few words: run it, interrupt it, read what it wrote.
 #pragma once
 
 #include <filesystem>
@@ -7,23 +7,11 @@
 #include <utility>
 #include <vector>
 
+#include "tests/harness/temporary_folder.h"
+
 namespace halfframe::test {
 
-/// A folder of its own, gone with its contents when the test ends.
-class TemporaryFolder {
-public:
-    TemporaryFolder();
-    ~TemporaryFolder();
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    [[nodiscard]] std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-    /// Names in the folder, sorted.
-    [[nodiscard]] std::vector<std::string> names() const;
-
-private:
-    std::filesystem::path path_;
-};
+using harness::TemporaryFolder;
 
 struct ChildOptions {
     std::vector<std::pair<std::string, std::string>> environment;  ///< set on top of ours

@@ -10,13 +10,13 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/harness/child_process.h"
+#include "perf/process/child_process.h"
 
 namespace {
 
-using halfframe::harness::ChildCommand;
-using halfframe::harness::ChildResult;
-using halfframe::harness::run_child;
+using halfframe::process::ChildCommand;
+using halfframe::process::ChildResult;
+using halfframe::process::run_child;
 using Changes = std::vector<std::pair<std::string, std::optional<std::string>>>;
 
 struct Outcome {

@@ -7,7 +7,7 @@
 
 #include "engine/error.h"
 #include "engine/gl/program.h"
-#include "tests/harness/child_process.h"
+#include "perf/process/child_process.h"
 #include "tests/harness/gl_fixture.h"
 #include "tests/shaders/shader_variants.h"
 
@@ -56,8 +56,8 @@ constexpr const char* kOverride = "MESA_GLES_VERSION_OVERRIDE";
 /// Does its work in a child of itself, because Mesa reads the variable once in a process.
 TEST(OverriddenDriver, LinksEveryLowVariantAsEs20) {
     if (std::getenv(kOverride) == nullptr) {
-        const harness::ChildResult child =
-            harness::run_child({.arguments = {std::filesystem::read_symlink("/proc/self/exe").string(),
+        const process::ChildResult child =
+            process::run_child({.arguments = {std::filesystem::read_symlink("/proc/self/exe").string(),
                                               "--gtest_filter=OverriddenDriver.LinksEveryLowVariantAsEs20"},
                                 .environment = {{kOverride, "2.0"}, {"GTEST_OUTPUT", std::nullopt}}});
         if (child.output.find("[  SKIPPED ]") != std::string::npos)

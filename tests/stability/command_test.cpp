@@ -7,15 +7,15 @@
 
 #include <nlohmann/json.hpp>
 
-#include "tests/harness/child_process.h"
+#include "perf/process/child_process.h"
 
 namespace halfframe::harness {
 namespace {
 
-ChildResult stability(const std::vector<std::string>& arguments) {
-    ChildCommand command{.arguments = {HALFFRAME_BINARY_DIR "/halfframe", "stability"}};
+process::ChildResult stability(const std::vector<std::string>& arguments) {
+    process::ChildCommand command{.arguments = {HALFFRAME_BINARY_DIR "/halfframe", "stability"}};
     command.arguments.insert(command.arguments.end(), arguments.begin(), arguments.end());
-    return run_child(command);
+    return process::run_child(command);
 }
 
 /// Sentences are wrapped for a terminal.
@@ -33,13 +33,13 @@ std::string own_file() {
 }
 
 TEST(StabilityCommand, AStrangersFunctionIsTried) {
-    const ChildResult broken = stability({own_file(), "--function", "mine", "--domain", "x: 0..1000"});
+    const process::ChildResult broken = stability({own_file(), "--function", "mine", "--domain", "x: 0..1000"});
     EXPECT_EQ(broken.exit_code, 1) << broken.story();
     EXPECT_NE(in_one_line(broken.output).find("mine, half: "), std::string::npos) << broken.output;
     EXPECT_NE(in_one_line(broken.output).find("try x = 256"), std::string::npos) << broken.output;
-    const ChildResult sound = stability({own_file(), "--function", "mine", "--domain", "x: 1..100"});
+    const process::ChildResult sound = stability({own_file(), "--function", "mine", "--domain", "x: 1..100"});
     EXPECT_EQ(sound.exit_code, 0) << sound.story();
-    const ChildResult silent = stability({own_file()});
+    const process::ChildResult silent = stability({own_file()});
     EXPECT_EQ(silent.exit_code, 1) << silent.story();
     EXPECT_NE(in_one_line(silent.output).find("write a line such as //@domain x: 0..1"), std::string::npos)
         << silent.output;
@@ -48,7 +48,7 @@ TEST(StabilityCommand, AStrangersFunctionIsTried) {
 TEST(StabilityCommand, JsonAndPageHoldTheSameFunction) {
     const std::string page = testing::TempDir() + "halfframe_stability.html";
     std::filesystem::remove(page);
-    const ChildResult result = stability({"tone_map", "--json", "--html", page});
+    const process::ChildResult result = stability({"tone_map", "--json", "--html", page});
     ASSERT_EQ(result.exit_code, 0) << result.story();
     const auto report = nlohmann::json::parse(result.output);
     ASSERT_EQ(report.at("functions").size(), 2u);
@@ -69,7 +69,7 @@ TEST(StabilityCommand, WhatContradictsItselfIsUsage) {
                                                       {"tone_map", "--ledger", "l.json"},
                                                       {own_file(), "--function", "yours"},
                                                       {"--arguments", "--full"}}) {
-        const ChildResult result = stability(arguments);
+        const process::ChildResult result = stability(arguments);
         EXPECT_EQ(result.exit_code, 2) << result.story();
         EXPECT_TRUE(result.output.empty()) << result.output;
     }

@@ -3,14 +3,14 @@
 
 #include "content/content.h"
 #include "engine/frame/frame_plan.h"
-#include "tests/harness/child_process.h"
+#include "perf/process/child_process.h"
 #include "tests/harness/gl_fixture.h"
 
 namespace halfframe::tests {
 namespace {
 
-harness::ChildResult trace(const std::string& program, std::string_view scene, Tier tier) {
-    return harness::run_child(
+process::ChildResult trace(const std::string& program, std::string_view scene, Tier tier) {
+    return process::run_child(
         {.arguments = {std::string(TRACE_FRAME_FOLDER) + "/" + program, std::string(scene), name(tier)}});
 }
 

@@ -15,6 +15,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "content/plain_materials.h"
 #include "content/shapes.h"
 
 namespace halfframe::content {
@@ -25,13 +26,8 @@ constexpr float kRadiance = 0.5f;
 /// The display value that the engine's tone curve y = 1.0275 x / (x + 0.22) gives the radiance.
 constexpr float kDisplay = 1.0275f * kRadiance / (kRadiance + 0.22f);
 
-Material plain(const char* name, float albedo, float roughness) {
-    Material material;
-    material.name = name;
-    material.base_color = glm::vec4(albedo, albedo, albedo, 1.0f);
-    material.metallic = 0.0f;
-    material.roughness = roughness;
-    return material;
+Material grey(const char* name, float albedo, float roughness) {
+    return dielectric(name, glm::vec3(albedo), roughness);
 }
 
 }  // namespace
@@ -40,9 +36,9 @@ Scene make_furnace() {
     Scene scene;
     scene.name = "furnace";
     const int ball = add_mesh(scene, sphere(1.0f, 64, 32), "unit sphere");
-    const int white = add_material(scene, plain("white", 1.0f, 1.0f));
-    const int mid = add_material(scene, plain("mid", 0.5f, 1.0f));
-    const int black = add_material(scene, plain("black", 0.0f, 0.2f));
+    const int white = add_material(scene, grey("white", 1.0f, 1.0f));
+    const int mid = add_material(scene, grey("mid", 0.5f, 1.0f));
+    const int black = add_material(scene, grey("black", 0.0f, 0.2f));
     add_surface(scene, "white", ball, white, glm::translate(glm::mat4(1.0f), {-2.5f, 0.0f, 0.0f}));
     add_surface(scene, "mid", ball, mid, glm::mat4(1.0f));
     add_surface(scene, "black", ball, black, glm::translate(glm::mat4(1.0f), {2.5f, 0.0f, 0.0f}));

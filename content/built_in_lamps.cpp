@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "content/plain_materials.h"
 #include "content/shapes.h"
 
 namespace halfframe::content {
@@ -23,12 +24,7 @@ constexpr float kCellSize_m = 0.25f;  // the low tier lights by vertex
 
 /// Dark lacquer: what is seen is the highlight.
 Material lacquer(float roughness) {
-    Material material;
-    material.name = fmt::format("roughness {:.2f}", roughness);
-    material.base_color = {0.05f, 0.055f, 0.07f, 1.0f};
-    material.metallic = 0.0f;
-    material.roughness = roughness;
-    return material;
+    return dielectric(fmt::format("roughness {:.2f}", roughness), {0.05f, 0.055f, 0.07f}, roughness);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "content/plain_materials.h"
 #include "content/room_textures.h"
 #include "content/shapes.h"
 
@@ -31,26 +32,7 @@ constexpr float kOpeningTop = 2.3f;
 
 const glm::vec3 kUp{0.0f, 1.0f, 0.0f};
 
-Material paint(const char* name, const glm::vec3& linear, float roughness) {
-    Material material;
-    material.name = name;
-    material.base_color = glm::vec4(linear, 1.0f);
-    material.metallic = 0.0f;
-    material.roughness = roughness;
-    return material;
-}
-
-Material metal(const char* name, const glm::vec3& specular, float roughness) {
-    Material material = paint(name, specular, roughness);
-    material.metallic = 1.0f;
-    return material;
-}
-
-Material neon(const char* name, const glm::vec3& radiance) {
-    Material material = paint(name, glm::vec3(0.05f), 0.6f);
-    material.emissive = radiance;
-    return material;
-}
+Material neon(const char* name, const glm::vec3& radiance) { return shining(name, radiance, glm::vec3(0.05f)); }
 
 glm::mat4 at(const glm::vec3& position, float yaw_rad = 0.0f) {
     return glm::rotate(glm::translate(glm::mat4(1.0f), position), yaw_rad, kUp);
@@ -64,7 +46,7 @@ glm::mat4 lying_at(const glm::vec3& position, float facing) {
 
 void add_floor_and_ceiling(Scene& scene, int plaster) {
     TileImages tiles = floor_tiles(256);
-    Material floor = paint("floor tiles", glm::vec3(1.0f), 1.0f);
+    Material floor = dielectric("floor tiles", glm::vec3(1.0f), 1.0f);
     floor.metallic = 1.0f;  // the texture says 0
     floor.base_color_texture.image = add_image(scene, std::move(tiles.base_color));
     floor.normal_texture.image = add_image(scene, std::move(tiles.normal));
@@ -97,7 +79,7 @@ void add_opening_wall(Scene& scene, int plaster) {
     const float middle = 0.5f * (kOpeningTop + kOpeningBottom);
     add_surface(scene, "opening wall", add_mesh(scene, wall_with_opening(), "opening wall"), plaster,
                 at({kHalfWidth, 0.5f * kHeight, 0.0f}, -glm::half_pi<float>()));
-    Material glass = paint("glass", glm::vec3(0.35f, 0.45f, 0.60f), 0.08f);
+    Material glass = dielectric("glass", glm::vec3(0.35f, 0.45f, 0.60f), 0.08f);
     glass.base_color.a = 0.25f;
     glass.alpha_mode = AlphaMode::blend;
     glass.double_sided = true;
@@ -148,15 +130,15 @@ void add_props(Scene& scene) {
     // Metals have sRGB 186..255 as specular in the talk: linear 0.49..1.
     add_surface(scene, "metal ball", ball, add_material(scene, metal("steel", {0.62f, 0.61f, 0.60f}, 0.25f)),
                 at({-0.3f, 0.4f, -0.6f}));
-    add_surface(scene, "blue ball", ball, add_material(scene, paint("blue lacquer", {0.06f, 0.13f, 0.42f}, 0.30f)),
+    add_surface(scene, "blue ball", ball, add_material(scene, dielectric("blue lacquer", {0.06f, 0.13f, 0.42f}, 0.30f)),
                 at({0.9f, 0.4f, 0.3f}));
     scene.surfaces.back().dynamic = true;  // it could roll: the low tier gives it a shadow of its own
-    add_surface(scene, "crate", crate, add_material(scene, paint("red tarpaulin", {0.38f, 0.05f, 0.05f}, 0.75f)),
+    add_surface(scene, "crate", crate, add_material(scene, dielectric("red tarpaulin", {0.38f, 0.05f, 0.05f}, 0.75f)),
                 at({-1.7f, 0.35f, -1.2f}, 0.4f));
-    add_surface(scene, "column", column, add_material(scene, paint("concrete", {0.24f, 0.25f, 0.28f}, 0.85f)),
+    add_surface(scene, "column", column, add_material(scene, dielectric("concrete", {0.24f, 0.25f, 0.28f}, 0.85f)),
                 at({1.9f, 0.5f * kHeight, -1.3f}));
 
-    Material bars = paint("grille", glm::vec3(1.0f), 0.55f);
+    Material bars = dielectric("grille", glm::vec3(1.0f), 0.55f);
     bars.base_color_texture.image = add_image(scene, grille(128, 4));
     bars.alpha_mode = AlphaMode::mask;
     bars.double_sided = true;
@@ -222,7 +204,7 @@ void add_cameras(Scene& scene) {
 Scene make_test_room() {
     Scene scene;
     scene.name = "test_room";
-    const int plaster = add_material(scene, paint("plaster", {0.27f, 0.29f, 0.33f}, 0.9f));
+    const int plaster = add_material(scene, dielectric("plaster", {0.27f, 0.29f, 0.33f}, 0.9f));
     add_floor_and_ceiling(scene, plaster);
     add_walls(scene, plaster);
     add_props(scene);

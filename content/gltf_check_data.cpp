@@ -149,24 +149,6 @@ void check_samplers_and_textures(const JsonPlace& root) {
     });
 }
 
-void check_texture_use(const JsonPlace& root, const JsonPlace& owner, std::string_view key) {
-    if (owner.has(key)) {
-        const JsonPlace use = owner.at(key);
-        (void)use.at("index");
-        (void)index_in(use, "index", count_of(root, "textures"), "textures");
-        if (use.has("texCoord")) {
-            (void)use.at("texCoord").whole(0, 15);
-        }
-        if (use.has("scale")) {
-            (void)use.at("scale").number(-kLargestFloat, kLargestFloat);
-        }
-        if (use.has("strength")) {
-            (void)use.at("strength").number(0.0, 1.0);
-        }
-        check_texture_transform(use);
-    }
-}
-
 void check_number(const JsonPlace& owner, std::string_view key, double lowest, double highest) {
     if (owner.has(key)) {
         (void)owner.at(key).number(lowest, highest);
@@ -227,6 +209,24 @@ void check_camera(const JsonPlace& camera) {
 }
 
 }  // namespace
+
+void check_texture_use(const JsonPlace& root, const JsonPlace& owner, std::string_view key) {
+    if (owner.has(key)) {
+        const JsonPlace use = owner.at(key);
+        (void)use.at("index");
+        (void)index_in(use, "index", count_of(root, "textures"), "textures");
+        if (use.has("texCoord")) {
+            (void)use.at("texCoord").whole(0, 15);
+        }
+        if (use.has("scale")) {
+            (void)use.at("scale").number(-kLargestFloat, kLargestFloat);
+        }
+        if (use.has("strength")) {
+            (void)use.at("strength").number(0.0, 1.0);
+        }
+        check_texture_transform(use);
+    }
+}
 
 std::uint64_t component_bytes(std::uint64_t component_type) {
     switch (component_type) {

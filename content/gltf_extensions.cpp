@@ -34,18 +34,6 @@ void check_numbers(const JsonPlace& owner, std::string_view key, std::size_t cou
     }
 }
 
-void check_texture(const JsonPlace& root, const JsonPlace& owner, std::string_view key) {
-    if (owner.has(key)) {
-        const JsonPlace use = owner.at(key);
-        (void)use.at("index");
-        (void)index_in(use, "index", count_of(root, "textures"), "textures");
-        if (use.has("texCoord")) {
-            (void)use.at("texCoord").whole(0, 15);
-        }
-        check_texture_transform(use);
-    }
-}
-
 void check_light(const JsonPlace& light) {
     const std::string& type = light.at("type").text();
     if (type != "directional" && type != "point" && type != "spot") {
@@ -206,15 +194,15 @@ void check_material_extensions(const JsonPlace& root, const JsonPlace& material)
     if (const auto specular = extension(material, "KHR_materials_specular")) {
         check_number(*specular, "specularFactor", 0.0, 1.0);
         check_numbers(*specular, "specularColorFactor", 3, 0.0, kLargestFloat);
-        check_texture(root, *specular, "specularTexture");
-        check_texture(root, *specular, "specularColorTexture");
+        check_texture_use(root, *specular, "specularTexture");
+        check_texture_use(root, *specular, "specularColorTexture");
     }
     if (const auto glossy = extension(material, "KHR_materials_pbrSpecularGlossiness")) {
         check_numbers(*glossy, "diffuseFactor", 4, 0.0, 1.0);
         check_numbers(*glossy, "specularFactor", 3, 0.0, 1.0);
         check_number(*glossy, "glossinessFactor", 0.0, 1.0);
-        check_texture(root, *glossy, "diffuseTexture");
-        check_texture(root, *glossy, "specularGlossinessTexture");
+        check_texture_use(root, *glossy, "diffuseTexture");
+        check_texture_use(root, *glossy, "specularGlossinessTexture");
     }
     (void)extension(material, "KHR_materials_unlit");
 }

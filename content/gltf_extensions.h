@@ -22,6 +22,8 @@ void check_gltf_extensions(const GltfDocument& document);
 /// Parts of it.
 void check_material_extensions(const JsonPlace& root, const JsonPlace& material);
 void check_texture_transform(const JsonPlace& texture_use);
+/// The texture that `owner` names under `key`, where it names one: of the core as of extensions.
+void check_texture_use(const JsonPlace& root, const JsonPlace& owner, std::string_view key);
 
 /// The compression of a buffer view (EXT_meshopt_compression, or its successor with the same streams).
 [[nodiscard]] std::optional<JsonPlace> meshopt_of(const JsonPlace& buffer_view);

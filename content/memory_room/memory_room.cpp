@@ -8,8 +8,9 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "content/built_in.h"
+#include "content/noise.h"
+#include "content/plain_materials.h"
 #include "content/shapes.h"
-#include "content/street/noise.h"
 
 namespace halfframe::content {
 
@@ -17,33 +18,25 @@ namespace memory_room {
 
 namespace {
 
-using street::Random;
-
-Material blended(const char* name, const glm::vec3& albedo, const glm::vec3& radiance, float alpha) {
-    Material material;
-    material.name = name;
-    material.base_color = glm::vec4(albedo, alpha);
-    material.metallic = 0.0f;
+Material glass_of(const char* name, const glm::vec3& albedo, const glm::vec3& radiance, float alpha) {
+    Material material = blended(shining(name, radiance, albedo), alpha);
     material.roughness = 0.25f;
-    material.emissive = radiance;
-    material.alpha_mode = AlphaMode::blend;
-    material.double_sided = true;
     return material;
 }
 
 /// What is remembered: contour lines, as a mind draws them that has nearly forgotten.
 Image remembered(std::uint32_t seed) {
     constexpr int kSize = 256;
-    Image image = street::blank("remembered", kSize, kSize, true);
+    Image image = blank("remembered", kSize, kSize, true);
     for (int y = 0; y < kSize; ++y) {
         for (int x = 0; x < kSize; ++x) {
             const float u = (static_cast<float>(x) + 0.5f) / kSize;
             const float v = (static_cast<float>(y) + 0.5f) / kSize;
-            const float hill = street::layered_noise(u, v, 3, 4, seed);
+            const float hill = layered_noise(u, v, 3, 4, seed);
             const float level = hill * 9.0f - std::floor(hill * 9.0f);
-            const float line = 1.0f - street::smooth_step(0.03f, 0.10f, std::min(level, 1.0f - level));
-            const float fade = street::smooth_step(0.0f, 0.16f, std::min({u, 1.0f - u, v, 1.0f - v}));
-            street::set_texel(image, x, y, glm::vec3(255.0f), fade * (0.16f + 0.84f * line));
+            const float line = 1.0f - smooth_step(0.03f, 0.10f, std::min(level, 1.0f - level));
+            const float fade = smooth_step(0.0f, 0.16f, std::min({u, 1.0f - u, v, 1.0f - v}));
+            set_texel(image, x, y, glm::vec3(255.0f), fade * (0.16f + 0.84f * line));
         }
     }
     return image;
@@ -51,17 +44,17 @@ Image remembered(std::uint32_t seed) {
 
 Glass add_glass(Scene& scene, std::uint32_t seed) {
     Glass glass;
-    glass.clear = add_material(scene, blended("clear glass", {0.55f, 0.75f, 0.82f}, {0.10f, 0.34f, 0.40f}, 0.26f));
-    glass.milky = add_material(scene, blended("milky glass", {0.80f, 0.86f, 0.90f}, {0.75f, 0.90f, 0.95f}, 0.42f));
-    glass.edge = add_material(scene, blended("edge", {0.30f, 0.40f, 0.45f}, {0.9f, 2.3f, 2.7f}, 0.85f));
-    glass.line = add_material(scene, blended("line", {0.10f, 0.12f, 0.13f}, {2.6f, 4.2f, 4.6f}, 0.95f));
-    Material picture = blended("picture", {0.10f, 0.14f, 0.16f}, {0.25f, 1.3f, 1.7f}, 0.80f);
+    glass.clear = add_material(scene, glass_of("clear glass", {0.55f, 0.75f, 0.82f}, {0.10f, 0.34f, 0.40f}, 0.26f));
+    glass.milky = add_material(scene, glass_of("milky glass", {0.80f, 0.86f, 0.90f}, {0.75f, 0.90f, 0.95f}, 0.42f));
+    glass.edge = add_material(scene, glass_of("edge", {0.30f, 0.40f, 0.45f}, {0.9f, 2.3f, 2.7f}, 0.85f));
+    glass.line = add_material(scene, glass_of("line", {0.10f, 0.12f, 0.13f}, {2.6f, 4.2f, 4.6f}, 0.95f));
+    Material picture = glass_of("picture", {0.10f, 0.14f, 0.16f}, {0.25f, 1.3f, 1.7f}, 0.80f);
     picture.base_color_texture.image = add_image(scene, remembered(seed + 5u));
     picture.base_color_texture.wrap_u = picture.base_color_texture.wrap_v = Wrap::clamp;
     glass.picture = add_material(scene, picture);
-    Material veil = blended("veil", glm::vec3(0.0f), {0.70f, 0.82f, 0.87f}, 0.22f);
+    Material veil = glass_of("veil", glm::vec3(0.0f), {0.70f, 0.82f, 0.87f}, 0.22f);
     glass.veil = add_material(scene, veil);
-    Material shaft = blended("shaft", glm::vec3(0.0f), {1.60f, 1.95f, 2.05f}, 0.34f);
+    Material shaft = glass_of("shaft", glm::vec3(0.0f), {1.60f, 1.95f, 2.05f}, 0.34f);
     glass.shaft = add_material(scene, shaft);
     return glass;
 }

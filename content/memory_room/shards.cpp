@@ -7,13 +7,11 @@
 
 #include "content/built_in.h"
 #include "content/memory_room/memory_room.h"
-#include "content/street/random.h"
+#include "content/random.h"
 
 namespace halfframe::content::memory_room {
 
 namespace {
-
-using street::Random;
 
 /// A flat splinter of 4 to 6 corners round the origin, facing +z; uv 0..1 over it.
 Mesh splinter(Random& random, float size_m) {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "content/street/random.h"
+#include "content/random.h"
 
 namespace halfframe::content::street {
 

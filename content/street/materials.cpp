@@ -1,6 +1,7 @@
 // Makes the materials and their textures.
 #include "content/street/materials.h"
 
+#include "content/plain_materials.h"
 #include "content/street/sign_textures.h"
 #include "content/street/textures.h"
 
@@ -8,40 +9,20 @@ namespace halfframe::content::street {
 
 namespace {
 
-Material plain(const char* name, const glm::vec3& linear, float roughness) {
-    Material material;
-    material.name = name;
-    material.base_color = glm::vec4(linear, 1.0f);
-    material.metallic = 0.0f;
-    material.roughness = roughness;
-    return material;
-}
-
-Material metal(const char* name, const glm::vec3& specular, float roughness) {
-    Material material = plain(name, specular, roughness);
-    material.metallic = 1.0f;
-    return material;
-}
-
 /// Black but for what it sends out.
 Material shining(const char* name, const glm::vec3& radiance) {
-    Material material = plain(name, glm::vec3(0.0f), 0.6f);
-    material.emissive = radiance;
-    return material;
+    return content::shining(name, radiance, glm::vec3(0.0f));
 }
 
 /// Light in the air: no lamp shines on it.
 Material blended(const char* name, const glm::vec3& radiance, float alpha) {
-    Material material = plain(name, glm::vec3(0.0f), 1.0f);
-    material.emissive = radiance;
-    material.base_color.a = alpha;
-    material.alpha_mode = AlphaMode::blend;
-    material.double_sided = true;
+    Material material = content::blended(shining(name, radiance), alpha);
+    material.roughness = 1.0f;
     return material;
 }
 
 Material textured(Builder& builder, const char* name, TextureSet set, float normal_scale = 1.0f) {
-    Material material = plain(name, glm::vec3(1.0f), 1.0f);
+    Material material = dielectric(name, glm::vec3(1.0f), 1.0f);
     material.metallic = 1.0f;  // the texture says where
     material.normal_scale = normal_scale;
     material.base_color_texture.image = builder.add_image(std::move(set.base_color));
@@ -71,24 +52,24 @@ void add_walls_and_ground(Builder& builder, Materials& of, std::uint32_t seed) {
     of.cobbles = builder.add_material(textured(builder, "cobbles", cobble_texture(mixed(seed, 8))),
                                       {.side_m = kCobbleSide_m, .colors = true});
     of.paving = builder.add_material(textured(builder, "paving", paving_texture(mixed(seed, 9))), {kPavingSide_m});
-    of.kerb = builder.add_material(plain("kerb", {0.16f, 0.165f, 0.17f}, 0.55f), {});
-    of.paint = builder.add_material(plain("road paint", {0.42f, 0.43f, 0.44f}, 0.45f), {});
+    of.kerb = builder.add_material(dielectric("kerb", {0.16f, 0.165f, 0.17f}, 0.55f), {});
+    of.paint = builder.add_material(dielectric("road paint", {0.42f, 0.43f, 0.44f}, 0.45f), {});
 }
 
 void add_openings(Builder& builder, Materials& of, std::uint32_t seed) {
     Material window = textured(builder, "windows", window_textures(mixed(seed, 10)), 0.5f);
     window.emissive = glm::vec3(4.2f);
     of.window = builder.add_material(window, {.wall = true});
-    Material shop = plain("shop windows", glm::vec3(0.02f), 0.12f);
+    Material shop = dielectric("shop windows", glm::vec3(0.02f), 0.12f);
     shop.emissive = glm::vec3(4.6f);
     shop.emissive_texture.image = builder.add_image(shop_picture(mixed(seed, 11)));
     of.shop_window = builder.add_material(shop, {});
-    Material glass = plain("glass", {0.05f, 0.07f, 0.09f}, 0.08f);
+    Material glass = dielectric("glass", {0.05f, 0.07f, 0.09f}, 0.08f);
     glass.base_color.a = 0.30f;
     glass.alpha_mode = AlphaMode::blend;
     glass.double_sided = true;
     of.glass = builder.add_material(glass, {});
-    Material railing = plain("railing", glm::vec3(1.0f), 0.5f);
+    Material railing = dielectric("railing", glm::vec3(1.0f), 0.5f);
     railing.base_color_texture.image = builder.add_image(railing_picture());
     railing.alpha_mode = AlphaMode::mask;
     railing.alpha_cutoff = 0.35f;  // its mips grow thin: kept a little wider than half
@@ -103,22 +84,22 @@ void add_openings(Builder& builder, Materials& of, std::uint32_t seed) {
     shutter.name = "grey shutters";
     shutter.base_color = glm::vec4(0.80f, 0.92f, 1.0f, 1.0f);
     of.shutter_grey = builder.add_material(shutter, {kWoodSide_m});
-    of.door = builder.add_material(plain("door", {0.030f, 0.052f, 0.075f}, 0.35f), {});
+    of.door = builder.add_material(dielectric("door", {0.030f, 0.052f, 0.075f}, 0.35f), {});
 }
 
 void add_things(Builder& builder, Materials& of) {
-    of.iron = builder.add_material(plain("iron", {0.030f, 0.033f, 0.038f}, 0.45f), {});
+    of.iron = builder.add_material(dielectric("iron", {0.030f, 0.033f, 0.038f}, 0.45f), {});
     of.steel = builder.add_material(metal("steel", {0.62f, 0.61f, 0.60f}, 0.34f), {});
     of.copper = builder.add_material(metal("copper", {0.93f, 0.54f, 0.50f}, 0.42f), {});
-    of.rubber = builder.add_material(plain("rubber", {0.016f, 0.016f, 0.017f}, 0.7f), {});
-    of.leaves = builder.add_material(plain("leaves", {0.045f, 0.085f, 0.050f}, 0.6f), {});
-    of.soil = builder.add_material(plain("soil", {0.045f, 0.035f, 0.028f}, 0.9f), {});
-    of.cloth_red = builder.add_material(plain("red cloth", {0.30f, 0.045f, 0.045f}, 0.85f), {});
-    of.cloth_blue = builder.add_material(plain("blue cloth", {0.050f, 0.10f, 0.24f}, 0.85f), {});
-    of.cloth_purple = builder.add_material(plain("purple cloth", {0.15f, 0.06f, 0.22f}, 0.85f), {});
-    of.lacquer_red = builder.add_material(plain("red lacquer", {0.26f, 0.025f, 0.025f}, 0.22f), {});
-    of.lacquer_blue = builder.add_material(plain("blue lacquer", {0.028f, 0.055f, 0.12f}, 0.20f), {});
-    of.lacquer_pale = builder.add_material(plain("pale lacquer", {0.30f, 0.32f, 0.35f}, 0.24f), {});
+    of.rubber = builder.add_material(dielectric("rubber", {0.016f, 0.016f, 0.017f}, 0.7f), {});
+    of.leaves = builder.add_material(dielectric("leaves", {0.045f, 0.085f, 0.050f}, 0.6f), {});
+    of.soil = builder.add_material(dielectric("soil", {0.045f, 0.035f, 0.028f}, 0.9f), {});
+    of.cloth_red = builder.add_material(dielectric("red cloth", {0.30f, 0.045f, 0.045f}, 0.85f), {});
+    of.cloth_blue = builder.add_material(dielectric("blue cloth", {0.050f, 0.10f, 0.24f}, 0.85f), {});
+    of.cloth_purple = builder.add_material(dielectric("purple cloth", {0.15f, 0.06f, 0.22f}, 0.85f), {});
+    of.lacquer_red = builder.add_material(dielectric("red lacquer", {0.26f, 0.025f, 0.025f}, 0.22f), {});
+    of.lacquer_blue = builder.add_material(dielectric("blue lacquer", {0.028f, 0.055f, 0.12f}, 0.20f), {});
+    of.lacquer_pale = builder.add_material(dielectric("pale lacquer", {0.30f, 0.32f, 0.35f}, 0.24f), {});
 }
 
 void add_lights_and_air(Builder& builder, Materials& of, std::uint32_t seed) {

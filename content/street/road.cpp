@@ -2,7 +2,7 @@
 #include <array>
 #include <cmath>
 
-#include "content/street/noise.h"
+#include "content/noise.h"
 #include "content/street/site.h"
 
 namespace halfframe::content::street {

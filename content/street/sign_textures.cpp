@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "content/noise.h"
 #include "content/street/letters.h"
-#include "content/street/noise.h"
 
 namespace halfframe::content::street {
 

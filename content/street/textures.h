@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "content/street/noise.h"
+#include "content/noise.h"
 
 namespace halfframe::content::street {
 

@@ -13,6 +13,20 @@ float from_edge(float at, float length) {
     return std::min(inside, length - inside);
 }
 
+/// Pieces in rows, every other row moved by half a piece.
+struct Masonry {
+    float tone;    ///< 0..1, one a piece
+    float edge_m;  ///< from the nearest edge of the piece
+};
+
+/// `pieces` in a row before it repeats.
+Masonry masonry_at(const glm::vec2& at_m, const glm::vec2& piece_m, int pieces, std::uint32_t seed) {
+    const int row = static_cast<int>(at_m.y / piece_m.y);
+    const float along_m = at_m.x + (row % 2 == 0 ? 0.0f : 0.5f * piece_m.x);
+    const int piece = static_cast<int>(along_m / piece_m.x) % pieces;
+    return {hash_noise(piece, row, seed), std::min(from_edge(at_m.y, piece_m.y), from_edge(along_m, piece_m.x))};
+}
+
 /// Rain's dark trails: noise drawn out downwards. 0 clean, 1 dirty.
 float trails(float u, float v, std::uint32_t seed) {
     const float thin = smooth_noise(u * 64.0f, v * 4.0f, 64, seed);
@@ -24,19 +38,12 @@ float trails(float u, float v, std::uint32_t seed) {
 
 TextureSet stone_texture(std::uint32_t seed) {
     constexpr int kSize = 512;
-    constexpr float kCourse_m = 0.5f;
-    constexpr float kBlock_m = 1.0f;
     return texture_set("stone", kSize, kStoneSide_m, [seed](int x, int y) {
         const float u = (static_cast<float>(x) + 0.5f) / kSize;
         const float v = (static_cast<float>(y) + 0.5f) / kSize;
-        const float y_m = v * kStoneSide_m;
-        const int course = static_cast<int>(y_m / kCourse_m);
-        const float x_m = u * kStoneSide_m + (course % 2 == 0 ? 0.0f : 0.5f * kBlock_m);
-        const int block = static_cast<int>(x_m / kBlock_m) % 4;
-        const float tone = hash_noise(block, course, seed);
+        const auto [tone, edge_m] = masonry_at(glm::vec2(u, v) * kStoneSide_m, {1.0f, 0.5f}, 4, seed);
         const float grain = layered_noise(u, v, 32, 4, seed + 2u);
         const float patch = layered_noise(u, v, 4, 3, seed + 3u);
-        const float edge_m = std::min(from_edge(y_m, kCourse_m), from_edge(x_m, kBlock_m));
         const float face = smooth_step(0.004f, 0.020f, edge_m);
         const float dirt = 0.6f * trails(u, v, seed + 4u) + 0.4f * (1.0f - face);
         const float value = 128.0f + 26.0f * (tone - 0.5f) + 34.0f * (grain - 0.5f) + 34.0f * (patch - 0.5f);
@@ -50,19 +57,12 @@ TextureSet stone_texture(std::uint32_t seed) {
 
 TextureSet brick_texture(std::uint32_t seed) {
     constexpr int kSize = 256;
-    constexpr float kBrick_m = 0.25f;
-    constexpr float kRow_m = 0.0625f;
     return texture_set("brick", kSize, kBrickSide_m, [seed](int x, int y) {
         const float u = (static_cast<float>(x) + 0.5f) / kSize;
         const float v = (static_cast<float>(y) + 0.5f) / kSize;
-        const float y_m = v * kBrickSide_m;
-        const int row = static_cast<int>(y_m / kRow_m);
-        const float x_m = u * kBrickSide_m + (row % 2 == 0 ? 0.0f : 0.5f * kBrick_m);
-        const int brick = static_cast<int>(x_m / kBrick_m) % 8;
-        const float tone = hash_noise(brick, row, seed);
+        const auto [tone, edge_m] = masonry_at(glm::vec2(u, v) * kBrickSide_m, {0.25f, 0.0625f}, 8, seed);
         const float grain = layered_noise(u, v, 32, 3, seed + 2u);
         const float soot = layered_noise(u, v, 3, 4, seed + 3u);
-        const float edge_m = std::min(from_edge(y_m, kRow_m), from_edge(x_m, kBrick_m));
         const float face = smooth_step(0.003f, 0.010f, edge_m);
         const glm::vec3 burnt = glm::mix(glm::vec3(88.0f, 66.0f, 62.0f), glm::vec3(124.0f, 88.0f, 78.0f), tone);
         const glm::vec3 mortar(104.0f, 104.0f, 106.0f);

@@ -8,17 +8,21 @@
 #include <string>
 #include <vector>
 
-#include "content/street/random.h"
+#include "content/random.h"
 #include "engine/frame/scene.h"
 
-namespace halfframe::content::street {
+namespace halfframe::content {
 
 /// 0..1, smooth, one knot a unit; repeats after `period` units in x and y.
 [[nodiscard]] float smooth_noise(float x, float y, int period, std::uint32_t seed);
 /// 0..1: `octaves` of smooth_noise, each of twice the frequency and half the height; `u` and `v` run 0..1 over the
 /// picture, which has `cells` knots of the first octave.
 [[nodiscard]] float layered_noise(float u, float v, int cells, int octaves, std::uint32_t seed);
-/// 0..1, one value a place.
+/// 0..1, one value a place, and one a place and seed.
+[[nodiscard]] inline float hash_noise(int x, int y) {
+    return static_cast<float>(mixed(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)) >> 8u) *
+           (1.0f / 16777215.0f);
+}
 [[nodiscard]] inline float hash_noise(int x, int y, std::uint32_t seed) {
     return static_cast<float>(mixed(mixed(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)), seed) >> 8u) *
            (1.0f / 16777215.0f);
@@ -88,4 +92,4 @@ TextureSet texture_set(const std::string& name, int size, float side_m, Function
     return set;
 }
 
-}  // namespace halfframe::content::street
+}  // namespace halfframe::content

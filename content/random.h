@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace halfframe::content::street {
+namespace halfframe::content {
 
 /// A well-mixed 32-bit number of two (multiply, shift and xor; constants of the PCG family, M. O'Neill 2014).
 [[nodiscard]] inline std::uint32_t mixed(std::uint32_t a, std::uint32_t b) {
@@ -13,7 +13,7 @@ namespace halfframe::content::street {
 }
 
 /// A stream of numbers. Streams of one seed and different keys have nothing to do with each other, so that one part of
-/// the street may draw more numbers without moving another.
+/// a scene may draw more numbers without moving another.
 class Random {
 public:
     Random(std::uint32_t seed, std::uint32_t key) : seed_(mixed(seed, mixed(key, 0x51ed270bu))) {}
@@ -33,4 +33,4 @@ private:
     std::uint32_t count_ = 0;
 };
 
-}  // namespace halfframe::content::street
+}  // namespace halfframe::content

@@ -1,7 +1,7 @@
 // Value noise on a lattice that repeats.
-#include "content/street/noise.h"
+#include "content/noise.h"
 
-namespace halfframe::content::street {
+namespace halfframe::content {
 
 float smooth_noise(float x, float y, int period, std::uint32_t seed) {
     const float floor_x = std::floor(x);
@@ -57,4 +57,4 @@ void set_texel(Image& image, int x, int y, const glm::vec3& codes, float alpha) 
     image.rgba[at + 3] = static_cast<std::uint8_t>(255.0f * std::clamp(alpha, 0.0f, 1.0f) + 0.5f);
 }
 
-}  // namespace halfframe::content::street
+}  // namespace halfframe::content

@@ -1,4 +1,4 @@
-// An effect that only a test has: it inserts what the test wants to see the rest of the house survive.
+// An effect that no build has: it inserts code to see what the rest of the house makes of it.
 #pragma once
 
 #include <span>
@@ -6,12 +6,12 @@
 
 #include "engine/frame/effect_card.h"
 
-namespace halfframe::harness {
+namespace halfframe::perf {
 
 /// A card that every scene calls for and that makes `insertions`: a plain function, because cards carry nothing.
 inline EffectCard planted_effect(std::span<const gl::Insertion> (*insertions)(const PlanContext&)) {
     return {.name = "planted",
-            .purpose = "Plants what a test looks for.",
+            .purpose = "Inserts code to see what becomes of it.",
             .sources = "none",
             .kind = EffectKind::material,
             .called_for_by = "always",
@@ -20,7 +20,7 @@ inline EffectCard planted_effect(std::span<const gl::Insertion> (*insertions)(co
             .indispensable = "",
             .called_for =
                 [](const PlanContext&) {
-                    return Demand{true, "a test plants it"};
+                    return Demand{true, "it is planted"};
                 },
             .add_passes = nullptr,
             .insertions = insertions,
@@ -34,4 +34,4 @@ inline EffectCard planted_effect(std::span<const gl::Insertion> (*insertions)(co
     return cards;
 }
 
-}  // namespace halfframe::harness
+}  // namespace halfframe::perf

@@ -7,7 +7,6 @@
 #include <chrono>
 #include <cstdio>
 #include <fstream>
-#include <iostream>
 #include <iterator>
 #include <numbers>
 #include <stdexcept>
@@ -35,6 +34,8 @@
 #include <image/KtxBundle.h>
 #include <image/KtxUtility.h>
 #include <utils/EntityManager.h>
+
+#include "perf/peers/peer_orders.h"
 
 namespace {
 
@@ -247,25 +248,13 @@ Json Peer::picture(const std::string& file) {
     return {{"file", file}, {"linear", true}};
 }
 
-Json answer(Peer& peer, const Json& order) {
-    const QuietOutput quiet;
-    try {
-        const std::string what = order["do"];
-        if (what == "load") return peer.load(order);
-        if (what == "draw") return peer.draw(order["frames"]);
-        if (what == "picture") return peer.picture(order["file"]);
-        return {{"error", "there is no order called " + what}};
-    } catch (const std::exception& error) {
-        return {{"error", error.what()}};
-    }
-}
-
 }  // namespace
 
 int main() {
     Peer peer;
-    for (std::string line; std::getline(std::cin, line);) {
-        std::cout << answer(peer, Json::parse(line)).dump() << std::endl;
-    }
+    halfframe::peers::obey_orders([&peer](const Json& order) {
+        const QuietOutput quiet;
+        return halfframe::peers::answer(peer, order);
+    });
     std::_Exit(0);  // the engine is not taken down: nothing outlives the process
 }

@@ -70,9 +70,13 @@ void FloorWork::add_draw(Renderer& renderer, const EffectCard& card, int index, 
     const bool decoded = renderer.tier_of("floor") != Tier::low && renderer.caps().srgb_textures;
     std::vector<std::string_view> defines;
     std::vector<const char*> samplers;
-    Draw draw{
-        .program = nullptr, .clip_from_local = -1, .base_color = -1, .skin = -1, .uv_range = -1, .surface = index,
-        .textures = {}};
+    Draw draw{.program = nullptr,
+              .clip_from_local = -1,
+              .base_color = -1,
+              .skin = -1,
+              .uv_range = -1,
+              .surface = index,
+              .textures = {}};
     for (const Map& map :
          {Map{material.base_color_texture, "BASE_COLOR_MAP", "base_color_map", true},
           Map{material.metallic_roughness_texture, "METALLIC_ROUGHNESS_MAP", "metallic_roughness_map", false},
@@ -127,36 +131,27 @@ std::unique_ptr<EffectWork> prepare_fetches(Renderer& renderer) {
     return std::make_unique<FloorWork>(renderer, kFetchFloor, true);
 }
 
+EffectCard floor_card(const char* purpose, decltype(EffectCard::prepare) prepare) {
+    return {.name = "floor",
+            .purpose = purpose,
+            .sources = "none: a measuring device",
+            .kind = EffectKind::pass,
+            .called_for_by = "perf/peers",
+            .budget_row = "surface",
+            .tiers = kTiers,
+            .indispensable = "there would be nothing to time",
+            .called_for = called_for,
+            .add_passes = add_passes,
+            .insertions = nullptr,
+            .prepare = prepare};
+}
+
 }  // namespace
 
-const EffectCard kConstantFloor{
-    .name = "floor",
-    .purpose = "Draws every surface in one colour, to time what no shading can go below.",
-    .sources = "none: a measuring device",
-    .kind = EffectKind::pass,
-    .called_for_by = "perf/peers",
-    .budget_row = "surface",
-    .tiers = kTiers,
-    .indispensable = "there would be nothing to time",
-    .called_for = called_for,
-    .add_passes = add_passes,
-    .insertions = nullptr,
-    .prepare = prepare_constant,
-};
+const EffectCard kConstantFloor =
+    floor_card("Draws every surface in one colour, to time what no shading can go below.", prepare_constant);
 
-const EffectCard kFetchFloor{
-    .name = "floor",
-    .purpose = "Samples every texture of a material and adds them up, to time the fetches alone.",
-    .sources = "none: a measuring device",
-    .kind = EffectKind::pass,
-    .called_for_by = "perf/peers",
-    .budget_row = "surface",
-    .tiers = kTiers,
-    .indispensable = "there would be nothing to time",
-    .called_for = called_for,
-    .add_passes = add_passes,
-    .insertions = nullptr,
-    .prepare = prepare_fetches,
-};
+const EffectCard kFetchFloor =
+    floor_card("Samples every texture of a material and adds them up, to time the fetches alone.", prepare_fetches);
 
 }  // namespace halfframe::peers

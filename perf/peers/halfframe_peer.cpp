@@ -3,7 +3,6 @@
 #include <array>
 #include <chrono>
 #include <fstream>
-#include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -18,6 +17,7 @@
 #include "engine/frame/renderer.h"
 #include "perf/peers/environment.h"
 #include "perf/peers/floor_card.h"
+#include "perf/peers/peer_orders.h"
 #include "platform/context.h"
 
 namespace halfframe::peers {
@@ -126,18 +126,6 @@ private:
     std::unique_ptr<Renderer> renderer_;
 };
 
-Json answer(Peer& peer, const Json& order) {
-    try {
-        const std::string what = order["do"];
-        if (what == "load") return peer.load(order);
-        if (what == "draw") return peer.draw(order["frames"]);
-        if (what == "picture") return peer.picture(order["file"]);
-        return {{"error", "there is no order called " + what}};
-    } catch (const std::exception& error) {
-        return {{"error", error.what()}};
-    }
-}
-
 int run(const std::string& tier_name, const std::string& arithmetic, const std::string& work,
         const std::string& storage) {
     static constexpr std::array<const EffectCard*, 2> kConstant = {&kConstantFloor, &kToneMap};
@@ -160,9 +148,7 @@ int run(const std::string& tier_name, const std::string& arithmetic, const std::
     if (work == "constant") cards = kConstant;
     if (work == "fetches") cards = kFetches;
     Peer peer(wishes, cards);
-    for (std::string line; std::getline(std::cin, line);) {
-        std::cout << answer(peer, Json::parse(line)).dump() << std::endl;
-    }
+    obey_orders([&peer](const Json& order) { return answer(peer, order); });
     return 0;
 }
 

@@ -11,6 +11,7 @@
 #include "content/content.h"
 #include "engine/error.h"
 #include "engine/frame/renderer.h"
+#include "perf/measure/planted_effect.h"
 #include "perf/report/text_table.h"
 
 namespace halfframe::stability {
@@ -67,10 +68,12 @@ constexpr std::array kRecordings{
     Recording{"fresnel_glossy", "n_dot_v", HALFFRAME_RECORD(HALFFRAME_SEE("n_dot_v"), "", "")},
     Recording{
         "power_from_roughness", "roughness",
-        HALFFRAME_RECORD("\n#ifdef ONE_FETCH\n" HALFFRAME_SEE("factors.y * packed_map.a")
-                             "\n#elif defined(METALLIC_ROUGHNESS_MAP)\n" HALFFRAME_SEE("factors.y * packed_factors.g")
-                                 "\n#endif\n",
-                         "", "")},
+        HALFFRAME_RECORD(
+            "\n#ifdef ONE_FETCH\n" HALFFRAME_SEE(
+                "factors.y * packed_map.a") "\n#elif defined(METALLIC_ROUGHNESS_MAP)\n" HALFFRAME_SEE("factors.y * "
+                                                                                                      "packed_factors."
+                                                                                                      "g") "\n#endif\n",
+            "", "")},
     Recording{"smoothness_from_power", "power", HALFFRAME_RECORD(HALFFRAME_SEE("power"), "", "")},
     Recording{"distance_falloff", "distance_squared", HALFFRAME_RECORD("", "", HALFFRAME_SEE("distance_squared"))},
     Recording{"distance_falloff", "inverse_range_squared",
@@ -89,24 +92,9 @@ constexpr std::array kRecordings{
 template <std::size_t Index>
 constexpr gl::Insertion kInsertions[] = {{"surface.color", nullptr, kRecordings[Index].code}};
 
-/// A card that every scene calls for.
 template <std::size_t Index>
 EffectCard card_of() {
-    return {.name = "argument_census",
-            .purpose = "Writes an argument of a shader function where the colour would go.",
-            .sources = "none",
-            .kind = EffectKind::material,
-            .called_for_by = "always",
-            .budget_row = "",
-            .tiers = {},
-            .indispensable = "",
-            .called_for =
-                [](const PlanContext&) {
-                    return Demand{true, "arguments are recorded"};
-                },
-            .add_passes = nullptr,
-            .insertions = [](const PlanContext&) { return std::span<const gl::Insertion>(kInsertions<Index>); },
-            .prepare = nullptr};
+    return perf::planted_effect([](const PlanContext&) { return std::span<const gl::Insertion>(kInsertions<Index>); });
 }
 
 template <std::size_t... Index>

@@ -1,11 +1,25 @@
 // A square that fills the picture, seen head on from 2 m, with its scene_color read back as floats.
 #pragma once
 
+#include <string>
+
 #include "engine/frame/renderer.h"
 #include "tests/frame/planning.h"
 #include "tests/harness/gl_fixture.h"
 
 namespace halfframe::tests {
+
+/// A tier and an arithmetic to draw at.
+struct On {
+    Tier tier;
+    Arithmetic arithmetic;
+    [[nodiscard]] std::string words() const { return std::string(name(tier)) + ' ' + name(arithmetic); }
+};
+inline constexpr On kEverywhere[] = {{Tier::low, Arithmetic::half},
+                                     {Tier::low, Arithmetic::full},
+                                     {Tier::console, Arithmetic::half},
+                                     {Tier::console, Arithmetic::full},
+                                     {Tier::reference, Arithmetic::full}};
 
 /// The square of planning.h, 100 m wide, so that it covers every pixel.
 inline Scene wide_square() {

@@ -3,9 +3,9 @@
 
 #include "content/content.h"
 #include "engine/frame/renderer.h"
+#include "perf/measure/planted_effect.h"
 #include "tests/frame/planning.h"
 #include "tests/harness/gl_fixture.h"
-#include "tests/harness/planted_effect.h"
 
 namespace halfframe::tests {
 namespace {
@@ -55,10 +55,10 @@ TEST_F(Census, FindsNothingInTheBuiltInScenes) {
 constexpr gl::Insertion kPlanted[] = {
     {"surface.color", nullptr, "color *= (base_color.a - base_color.a) / (base_color.a - base_color.a);"}};
 const EffectCard kPlantedNan =
-    harness::planted_effect([](const PlanContext&) { return std::span<const gl::Insertion>(kPlanted); });
+    perf::planted_effect([](const PlanContext&) { return std::span<const gl::Insertion>(kPlanted); });
 
 TEST_F(Census, FindsAPlantedNan) {
-    const std::vector<const EffectCard*> cards = harness::all_effects_and(kPlantedNan);
+    const std::vector<const EffectCard*> cards = perf::all_effects_and(kPlantedNan);
     const auto rows = count(square_scene(), {square_view()}, {.tier = Tier::console}, cards);
     std::uint64_t found = 0;
     for (const CensusRow& row : rows) {

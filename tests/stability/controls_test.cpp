@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "tests/harness/planted_effect.h"
+#include "perf/measure/planted_effect.h"
 #include "tests/stability/frame_pairs.h"
 
 namespace halfframe::tests {
@@ -127,10 +127,10 @@ TEST_F(FrameControls, ABlankFrame) {
 constexpr gl::Insertion kPlanted[] = {
     {"surface.color", nullptr, "color *= (base_color.a - base_color.a) / (base_color.a - base_color.a);"}};
 const EffectCard kPlantedNan =
-    harness::planted_effect([](const PlanContext&) { return std::span<const gl::Insertion>(kPlanted); });
+    perf::planted_effect([](const PlanContext&) { return std::span<const gl::Insertion>(kPlanted); });
 
 TEST_F(FrameControls, ANanInBothFrames) {
-    const std::vector<const EffectCard*> cards = harness::all_effects_and(kPlantedNan);
+    const std::vector<const EffectCard*> cards = perf::all_effects_and(kPlantedNan);
     accuracy::FrameBench with_nan(gl(), caps(), cards);
     const auto found = with_nan.measure(pair_of("triangles"), Tier::console, Arithmetic::full);
     EXPECT_GT(found.not_finite, 1000u);

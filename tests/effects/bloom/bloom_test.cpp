@@ -10,9 +10,9 @@
 
 #include "engine/effects/bloom/bloom_reference.h"
 #include "engine/effects/tone_map/tone_map_reference.h"
+#include "perf/measure/planted_effect.h"
 #include "shaders_es/bloom/bloom_limits.h"
 #include "tests/effects/pixel_scene.h"
-#include "tests/harness/planted_effect.h"
 
 namespace halfframe::tests {
 namespace {
@@ -192,11 +192,11 @@ constexpr Spoiler kSpoilers[] = {
     {{{"surface.color", nullptr, "if (base_color.a < 0.75) color *= 1e30 * base_color.a * 1e30;"}}, "inf"},
     {{{"surface.color", nullptr, "if (base_color.a < 0.75) color = -color;"}}, "negative"}};
 const Spoiler* spoiler_in_force = nullptr;  // cards are plain functions: they cannot carry which one
-const EffectCard kSpoilt = harness::planted_effect(
+const EffectCard kSpoilt = perf::planted_effect(
     [](const PlanContext&) { return std::span<const gl::Insertion>(spoiler_in_force->insertion); });
 
 TEST_F(Bloom, WhatIsNoLightDoesNotSpread) {
-    const std::vector<const EffectCard*> cards = harness::all_effects_and(kSpoilt);
+    const std::vector<const EffectCard*> cards = perf::all_effects_and(kSpoilt);
     LightPicture picture(kSize, kSize);
     picture.at(64, 64) = glm::vec3(3.0f);
     Scene scene = with_bloom(pixel_scene(picture));

@@ -18,10 +18,6 @@ Vector unit(const glm::dvec3& a) {
     return {n.x, n.y, n.z};
 }
 
-struct On {
-    Tier tier;
-    Arithmetic arithmetic;
-};
 constexpr On kGrounds[] = {
     {Tier::console, Arithmetic::full}, {Tier::console, Arithmetic::half}, {Tier::reference, Arithmetic::full}};
 

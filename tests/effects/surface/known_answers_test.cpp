@@ -9,8 +9,8 @@
 
 #include "content/shapes.h"
 #include "engine/effects/surface/surface_reference.h"
+#include "perf/measure/planted_effect.h"
 #include "tests/effects/lit_square.h"
-#include "tests/harness/planted_effect.h"
 
 namespace halfframe::tests {
 namespace {
@@ -23,18 +23,7 @@ constexpr gl::Insertion kChosen[] = {
     {"surface.material", nullptr,
      "albedo = vec3(base.r); specular = vec3(base.g); smoothness = base.b; power = exp2(10.0 * base.b + 1.0);"}};
 const EffectCard kChosenMaterial =
-    harness::planted_effect([](const PlanContext&) { return std::span<const gl::Insertion>(kChosen); });
-
-struct On {
-    Tier tier;
-    Arithmetic arithmetic;
-    [[nodiscard]] std::string words() const { return std::string(name(tier)) + ' ' + name(arithmetic); }
-};
-constexpr On kEverywhere[] = {{Tier::low, Arithmetic::half},
-                              {Tier::low, Arithmetic::full},
-                              {Tier::console, Arithmetic::half},
-                              {Tier::console, Arithmetic::full},
-                              {Tier::reference, Arithmetic::full}};
+    perf::planted_effect([](const PlanContext&) { return std::span<const gl::Insertion>(kChosen); });
 
 constexpr int kSize = 96;
 constexpr double kHalfHeight_m = 1.05;

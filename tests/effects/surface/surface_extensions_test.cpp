@@ -12,17 +12,6 @@
 namespace halfframe::tests {
 namespace {
 
-struct On {
-    Tier tier;
-    Arithmetic arithmetic;
-    [[nodiscard]] std::string words() const { return std::string(name(tier)) + ' ' + name(arithmetic); }
-};
-constexpr On kEverywhere[] = {{Tier::low, Arithmetic::half},
-                              {Tier::low, Arithmetic::full},
-                              {Tier::console, Arithmetic::half},
-                              {Tier::console, Arithmetic::full},
-                              {Tier::reference, Arithmetic::full}};
-
 Image one_texel(bool srgb, std::array<std::uint8_t, 4> rgba) {
     return {.name = "texel", .width = 1, .height = 1, .srgb = srgb, .rgba = {rgba.begin(), rgba.end()}};
 }

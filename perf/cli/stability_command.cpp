@@ -1,5 +1,6 @@
 // halfframe stability: where half precision breaks, for every shader function and for functions of a user's own.
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <optional>
 #include <sstream>
@@ -12,12 +13,14 @@
 
 #include "engine/error.h"
 #include "perf/accuracy/lane_canvas.h"
+#include "perf/cli/cache_folder.h"
 #include "perf/cli/command.h"
 #include "perf/cli/graphics_device.h"
 #include "perf/cli/spelling.h"
 #include "perf/cli/terminal.h"
 #include "perf/report/atomic_file.h"
 #include "perf/stability/argument_census.h"
+#include "perf/stability/kept_results.h"
 #include "perf/stability/ledger.h"
 #include "perf/stability/stability_report.h"
 
@@ -53,8 +56,13 @@ public:
                         "Of that function: its inputs, as in \"x: 0..1; n: unit\"; replaces what the file declares")
             ->type_name("TEXT");
         command.add_flag("--full", full_,
-                         "A million combinations of hard cases a function instead of 16384, and 262144 inputs drawn "
-                         "instead of 8192");
+                         "Up to ten million combinations of hard cases a function instead of 16384, and 262144 inputs "
+                         "drawn instead of 8192: an hour or two. Once interrupted, the next --full goes on from there");
+        command
+            .add_option("--cache", cache_,
+                        "Folder that keeps what an interrupted --full has found, or none. Default: "
+                        "$XDG_CACHE_HOME/halfframe or ~/.cache/halfframe")
+            ->type_name("DIR|none");
         command.add_flag(
             "--arguments", arguments_,
             "Instead, draw every built-in scene and record which arguments functions get there; one outside "
@@ -202,16 +210,26 @@ private:
     void search_all(const stability::Drawing* drawing, stability::StabilityReport& report) const {
         Progress progress;
         const stability::Effort& effort = full_ ? stability::kFullEffort : stability::kFastEffort;
-        for (const Declaration& function : chosen_) {
-            for (const std::string& variant : function.variants) {
-                const stability::Subject subject(function, variant, files_);
+        const std::filesystem::path folder = full_ ? cache_folder(cache_) : std::filesystem::path();
+        stability::KeptResults kept(folder.empty() ? folder : folder / "stability", report.driver);
+        for (std::size_t i = 0; i < chosen_.size(); ++i) {
+            for (const std::string& variant : chosen_[i].variants) {
+                const stability::Subject subject(chosen_[i], variant, files_);
+                if (const auto earlier = kept.find(subject, effort)) {
+                    report.functions.push_back(*earlier);
+                    ++report.from_earlier_run;
+                    continue;
+                }
                 report.functions.push_back(
                     stability::search(subject, effort, drawing, [&](std::size_t done, std::size_t planned) {
                         stop_if_interrupted();
-                        progress.show(fmt::format("{}, {} of {} inputs", subject.title(), done, planned));
+                        progress.show(fmt::format("{} of {}: {}, {} of {} inputs", i + 1, chosen_.size(),
+                                                  subject.title(), done, planned));
                     }));
+                kept.keep(report.functions.back(), subject, effort);
             }
         }
+        kept.forget();
         if (!wanted_.empty()) return;
         for (const stability::ExhibitEntry& entry : stability::exhibit_list()) {
             stop_if_interrupted();
@@ -229,6 +247,7 @@ private:
 
     std::vector<std::string> wanted_;
     std::string function_, domain_, html_, ledger_, write_ledger_;
+    std::string cache_;
     bool full_ = false;
     bool arguments_ = false;
     bool json_ = false;

@@ -19,7 +19,7 @@ struct Effort {
     std::size_t sweep_points = 512;
 };
 inline constexpr Effort kFastEffort{};
-inline constexpr Effort kFullEffort{.combinations = 1'000'000, .drawn = 262'144, .sweeps = 64, .sweep_points = 8192};
+inline constexpr Effort kFullEffort{.combinations = 10'000'000, .drawn = 262'144, .sweeps = 64, .sweep_points = 8192};
 
 /// Numbers of the domain, each as its parameter's precision holds it, by size.
 [[nodiscard]] std::vector<double> hard_values(const DeclaredParameter& parameter, const std::vector<double>& constants);

@@ -180,6 +180,10 @@ std::string stability_text(const StabilityReport& report) {
         text += fmt::format("functions {} / {} in shaders_es ({} run, {} with a reason not to)\n", report.covered(),
                             report.in_shaders_es, report.covered() - report.not_run.size(), report.not_run.size());
     }
+    if (report.from_earlier_run > 0) {
+        text += fmt::format("{} of {} results are those of an earlier run that was interrupted\n",
+                            report.from_earlier_run, report.functions.size());
+    }
     text += fmt::format("inputs {}, NaN or inf {}\n", report.inputs(), report.not_finite());
     if (!report.exhibit.empty())
         text += fmt::format("planted faults found {} / {}\n", report.found(), report.exhibit.size());

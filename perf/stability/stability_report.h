@@ -15,6 +15,7 @@ struct StabilityReport {
     std::string driver;   ///< of the context that drew; empty: none did
     std::string missing;  ///< why nothing was drawn; empty: it was
     std::vector<FunctionStability> functions;
+    std::size_t from_earlier_run = 0;  ///< of them, found before a run that was interrupted
     std::vector<Declaration> not_run;  ///< functions with a reason not to be run on their own
     std::vector<Declaration> gaps;     ///< functions that say nothing
     std::size_t in_shaders_es = 0;     ///< functions there are; 0: a user's file was searched

@@ -261,6 +261,7 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Wishes& wishes,
     check_names(wishes, cards);
     FramePlan plan;
     plan.scene = scene.name;
+    plan.exposure = view.exposure;
     plan.width = view.width;
     plan.height = view.height;
     plan.tier = chosen_tier(wishes, caps);

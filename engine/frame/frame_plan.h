@@ -78,6 +78,7 @@ struct FramePlan {
     std::string scene;
     int width = 0;
     int height = 0;
+    float exposure = 1.0f;  ///< of the view it was made for; what is stored is scaled for it
     Tier tier = Tier::console;
     Arithmetic arithmetic = Arithmetic::full;
     gl::PixelFormat storage = gl::PixelFormat::rgba16f;  ///< of scene_color

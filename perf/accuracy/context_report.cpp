@@ -120,7 +120,7 @@ std::string frames_text(const std::vector<FrameAccuracy>& frames) {
         table.add_row(cells);
         first = last;
     }
-    return "Frames: the test room drawn twice, the second time changed. Largest channel error of 255, and the share of "
+    return "Frames: a scene drawn twice, the second time changed. Largest channel error of 255, and the share of "
            "pixels\nthat differ at all; 0: to the bit. Where light is added, only what got darker counts. not finite: "
            "NaN and inf in\nevery colour target, drawn once more as RGBA32F.\n\n" +
            table.text() + "\nBounds that are not 0, and what they are for\n" + bounds_text(frames);

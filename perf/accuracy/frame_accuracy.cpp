@@ -13,9 +13,6 @@
 namespace halfframe::accuracy {
 namespace {
 
-/// Less than this and a blank frame could pass for a stable one.
-constexpr double kLeastCovered = 0.5;
-
 Picture part_of(const Picture& picture, const std::optional<Part>& wanted) {
     if (!wanted) return picture;
     expect(wanted->x >= 0 && wanted->y >= 0 && wanted->x + wanted->width <= picture.width &&
@@ -53,13 +50,13 @@ std::pair<double, int> distance(const Picture& plain, const Picture& changed, Re
     return {static_cast<double>(bad) / static_cast<double>(plain.rgba.size() / 4), largest};
 }
 
-void judge(FrameAccuracy& found) {
+void judge(FrameAccuracy& found, double least_covered) {
     const std::string subject =
         fmt::format("{}: {} ({}, {})", found.kind, found.change, name(found.tier), name(found.arithmetic));
     const auto demand = [&](bool holds, const std::string& sentence) {
         if (!holds) found.violations.push_back(subject + ": " + sentence);
     };
-    demand(found.covered >= kLeastCovered,
+    demand(found.covered >= least_covered,
            fmt::format("surfaces decide {:.0f} % of the picture, too little to judge it", 100.0 * found.covered));
     demand(found.census_values > 0, "the census looked at nothing");
     demand(found.not_finite == 0, fmt::format("{} values are NaN or infinite", found.not_finite));
@@ -119,7 +116,7 @@ FrameAccuracy FrameBench::measure(const FrameCase& pair, Tier tier, Arithmetic a
     wishes.census = false;
     changed.scene.surfaces.clear();
     found.covered = distance(part_of(draw(changed, wishes), pair.changed_part), found.changed, Relation::same).first;
-    judge(found);
+    judge(found, pair.least_covered);
     return found;
 }
 

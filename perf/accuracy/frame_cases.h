@@ -40,6 +40,8 @@ struct FrameCase {
     /// With all that the scene calls for. Otherwise without shadow, bloom and anti_alias: they work on grids, of a map
     /// that stands still in the world or of the picture's pixels, and what moves against a grid changes at its edges.
     bool whole = false;
+    double least_covered =
+        0.5;  ///< of the changed picture by surfaces: with less, a blank frame could pass for a stable one
     FrameBound full = {};
     FrameBound half = {};
     std::optional<FrameBound> reference_half = std::nullopt;  ///< the reference tier in half; nothing: as `half`
@@ -49,5 +51,9 @@ struct FrameCase {
 
 /// All pairs, of the built-in test room. The order is that of the table; pairs of a kind stand together.
 [[nodiscard]] std::vector<FrameCase> frame_cases();
+
+/// Pairs that any scene can stand in, seen by its first camera, or by one that frames it: `kind` is "scene". Those that
+/// it has nothing for (no lamps, nothing that moves) are left out. All copies of the shot are made when they are drawn.
+[[nodiscard]] std::vector<FrameCase> scene_cases(const Scene& scene);
 
 }  // namespace halfframe::accuracy

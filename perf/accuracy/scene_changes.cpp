@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "engine/frame/pose.h"
+
 namespace halfframe::accuracy {
 namespace {
 
@@ -19,6 +21,43 @@ void for_each_place(Shot& shot, Change change) {
     for (Camera& camera : shot.scene.cameras) of_matrix(camera.world_from_view);
     of_matrix(shot.camera.world_from_view);
 }
+
+/// Calls `change` with the place of every node, to its parent, that `wanted` names.
+template <typename Wanted, typename Change>
+void for_each_node(Scene& scene, Wanted wanted, Change change) {
+    for (Node& node : scene.nodes) {
+        if (!wanted(node)) continue;
+        if (!node.parent_from_local) {
+            change(node.translation);
+            continue;
+        }
+        glm::vec3 place((*node.parent_from_local)[3]);
+        change(place);
+        (*node.parent_from_local)[3] = glm::vec4(place, 1.0f);
+    }
+}
+
+/// Calls `change` with every key of an animated place of a node that `wanted` names; tangents are lengths too, but no
+/// places: `tangents` says whether they are meant.
+template <typename Wanted, typename Change>
+void for_each_key(Scene& scene, Wanted wanted, bool tangents, Change change) {
+    for (Animation& animation : scene.animations) {
+        for (AnimationChannel& channel : animation.channels) {
+            if (channel.value != AnimatedValue::translation) continue;
+            if (!wanted(scene.nodes[static_cast<std::size_t>(channel.node)])) continue;
+            const bool cubic = channel.interpolation == Interpolation::cubic_spline;
+            for (std::size_t at = 0; at + 3 <= channel.values.size(); at += 3) {
+                if (cubic && !tangents && at / 3 % 3 != 1) continue;
+                glm::vec3 key(channel.values[at], channel.values[at + 1], channel.values[at + 2]);
+                change(key);
+                for (int i = 0; i < 3; ++i) channel.values[at + static_cast<std::size_t>(i)] = key[i];
+            }
+        }
+    }
+}
+
+bool is_root(const Node& node) { return node.parent < 0; }
+bool is_any(const Node&) { return true; }
 
 bool is_lamp(const Light& light) { return light.kind != LightKind::sun; }
 
@@ -41,7 +80,10 @@ std::uint32_t add_bare_vertex(Mesh& mesh, std::uint32_t like, const glm::vec3& p
 }  // namespace
 
 Shot moved(Shot shot, const glm::dvec3& offset) {
-    for_each_place(shot, [&](glm::vec3& place) { place = glm::vec3(glm::dvec3(place) + offset); });
+    const auto move = [&](glm::vec3& place) { place = glm::vec3(glm::dvec3(place) + offset); };
+    for_each_place(shot, move);
+    for_each_node(shot.scene, is_root, move);
+    for_each_key(shot.scene, is_root, false, move);
     return shot;
 }
 
@@ -51,9 +93,20 @@ Shot with_places_of(Shot shot, const glm::dvec3& offset) {
 
 Shot in_units(Shot shot, double per_metre) {
     const auto factor = static_cast<float>(per_metre);
-    for_each_place(shot, [&](glm::vec3& place) { place = glm::vec3(glm::dvec3(place) * per_metre); });
+    const auto scale = [&](glm::vec3& place) { place = glm::vec3(glm::dvec3(place) * per_metre); };
+    for_each_place(shot, scale);
+    for_each_node(shot.scene, is_any, scale);
+    for_each_key(shot.scene, is_any, true, scale);
     for (Mesh& mesh : shot.scene.meshes) {
-        for (glm::vec3& position : mesh.positions) position = glm::vec3(glm::dvec3(position) * per_metre);
+        std::ranges::for_each(mesh.positions, scale);
+        for (MorphTarget& target : mesh.morph_targets) std::ranges::for_each(target.positions, scale);
+    }
+    for (Skin& skin : shot.scene.skins) {
+        for (glm::mat4& joint_from_mesh : skin.joint_from_mesh) {
+            glm::vec3 place(joint_from_mesh[3]);
+            scale(place);
+            joint_from_mesh[3] = glm::vec4(place, 1.0f);
+        }
     }
     for (Light& light : shot.scene.lights) {
         light.range_m *= factor;
@@ -110,6 +163,12 @@ Shot with_lights_times(Shot shot, float factor) {
 Shot exposed_for(Shot shot, float factor) {
     shot = with_lights_times(std::move(shot), factor);
     shot.scene.ambient *= factor;
+    if (shot.scene.environment) {
+        for (auto& level : shot.scene.environment->levels) {
+            for (glm::vec3& texel : level) texel *= factor;
+        }
+        for (glm::vec3& term : shot.scene.environment->irradiance) term *= factor;
+    }
     for (Material& material : shot.scene.materials) material.emissive *= factor;
     shot.camera.exposure /= factor;
     return shot;
@@ -125,6 +184,13 @@ Shot with_empty_triangles(Shot shot) {
         // In front of the others, so that nothing drawn before hides them.
         mesh.indices.insert(mesh.indices.begin(), {a, a, a, a, b, a, a, middle, b, again, a, again});
     }
+    return shot;
+}
+
+Shot at_time(Shot shot, double time_s) {
+    Animator animator(shot.scene);
+    animator.pose(shot.scene, 0, time_s);
+    place(shot.scene);
     return shot;
 }
 

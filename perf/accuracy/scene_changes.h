@@ -13,8 +13,8 @@ struct Shot {
     int height = 90;
 };
 
-/// Everything further along by `offset` [the scene's unit of length]. Places are floats: 10 km from the origin they
-/// keep steps of half a millimetre to one millimetre, in every unit.
+/// Everything further along by `offset` [the scene's unit of length], what moves and its course too. Places are floats:
+/// 10 km from the origin they keep steps of half a millimetre to one millimetre, in every unit.
 [[nodiscard]] Shot moved(Shot shot, const glm::dvec3& offset);
 
 /// The shot with the places that moved() leaves of it, brought back: its picture is what moved() can show at best.
@@ -36,12 +36,15 @@ struct Shot {
 /// Every light, the sun too, times `factor`; the ambient, the emission and the exposure stay.
 [[nodiscard]] Shot with_lights_times(Shot shot, float factor);
 
-/// Lights, ambient and emission times `factor`, the exposure divided by it.
+/// Lights, ambient, environment and emission times `factor`, the exposure divided by it.
 [[nodiscard]] Shot exposed_for(Shot shot, float factor);
 
 /// Each indexed triangle mesh with more triangles that have no area: one vertex three times, one edge there and back,
 /// and three corners on a line, the new corners with neither normal nor tangent.
 [[nodiscard]] Shot with_empty_triangles(Shot shot);
+
+/// The first animation at `time_s`, played round and round.
+[[nodiscard]] Shot at_time(Shot shot, double time_s);
 
 /// The same eye and target with another field of view [rad].
 [[nodiscard]] Shot with_field_of_view(Shot shot, float fov_y_rad);

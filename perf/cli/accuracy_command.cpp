@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "content/content.h"
 #include "engine/error.h"
 #include "engine/frame/effect_card.h"
 #include "perf/accuracy/accuracy_report.h"
@@ -67,6 +68,12 @@ public:
                       "Draw the test room far from the origin, in other units, under other lights, from odd eyes and "
                       "in odd sizes, at every tier, and compare")
             ->excludes(effects);
+        command
+            .add_option("--scenes", scenes_,
+                        "Of --frames: these scenes, built in or glTF files, or all that are built in, instead of the "
+                        "test room's own longer list")
+            ->type_name("NAME|FILE|all ...")
+            ->needs("--frames");
         command.add_flag("--json", json_, "Standard output is one JSON value");
         command
             .add_option("--maps", maps_,
@@ -137,9 +144,26 @@ private:
         perf::write_png(maps_, accuracy::error_maps(models));
     }
 
-    static void measure_frames(GraphicsDevice& device, Progress& progress, accuracy::AccuracyReport& report) {
+    [[nodiscard]] std::vector<accuracy::FrameCase> chosen_frames() const {
+        if (scenes_.empty()) return accuracy::frame_cases();
+        std::vector<std::string> names = scenes_;
+        if (holds(scenes_, "all")) {
+            names.clear();
+            for (const content::BuiltInScene& scene : content::built_in_scenes()) names.emplace_back(scene.name);
+        }
+        std::vector<accuracy::FrameCase> pairs;
+        for (const std::string& name : names) {
+            const Scene scene = content::open_scene(name);
+            if (scene.surfaces.empty()) continue;  // nothing to compare
+            const std::vector<accuracy::FrameCase> more = accuracy::scene_cases(scene);
+            pairs.insert(pairs.end(), more.begin(), more.end());
+        }
+        return pairs;
+    }
+
+    void measure_frames(GraphicsDevice& device, Progress& progress, accuracy::AccuracyReport& report) const {
         accuracy::FrameBench bench(device.gl(), device.caps());
-        for (const accuracy::FrameCase& pair : accuracy::frame_cases()) {
+        for (const accuracy::FrameCase& pair : chosen_frames()) {
             for (const Tier tier : {Tier::low, Tier::console, Tier::reference}) {
                 for (const Arithmetic arithmetic : {Arithmetic::full, Arithmetic::half}) {
                     stop_if_interrupted();
@@ -170,6 +194,7 @@ private:
 
     std::vector<std::string> effects_;
     bool frames_ = false;
+    std::vector<std::string> scenes_;
     bool json_ = false;
     DeviceOptions device_;
     std::string maps_;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/error.h"
+#include "perf/cost/function_cost.h"
 #include "perf/shader_ir/compile.h"
 
 namespace halfframe::stability {
@@ -47,6 +48,24 @@ Picture drawn(const ExhibitEntry& entry, const char* function, std::span<const g
     return picture;
 }
 
+double modelled_ms(const Subject& subject, const cost::Profile& profile, std::span<const gl::ShaderFile> files) {
+    constexpr double kPixels = 1280.0 * 720.0;
+    cost::FunctionCall call{.function = subject.function().name,
+                            .returned = subject.function().returned,
+                            .paths = subject.paths(),
+                            .defines = subject.defines()};
+    for (const DeclaredParameter& parameter : subject.function().parameters)
+        call.parameters.push_back({.components = parameter.components, .full = parameter.full});
+    return cost::modelled_ms(call, profile, kPixels, files);
+}
+
+std::vector<FixCost> costs_of(const Subject& printed, const Subject& mended, std::span<const gl::ShaderFile> files) {
+    std::vector<FixCost> costs;
+    for (const cost::Profile& profile : cost::built_in_profiles())
+        costs.push_back({profile.name, modelled_ms(printed, profile, files), modelled_ms(mended, profile, files)});
+    return costs;
+}
+
 }  // namespace
 
 std::vector<ExhibitEntry> exhibit_list() {
@@ -87,6 +106,7 @@ ExhibitResult measure(const ExhibitEntry& entry, const Effort& effort, const Dra
     ExhibitResult result{.entry = entry,
                          .printed = search(printed, effort, drawing),
                          .mended = search(mended, effort, drawing),
+                         .costs = costs_of(printed, mended, files),
                          .picture_printed = drawn(entry, "picture_printed", files),
                          .picture_mended = drawn(entry, "picture_mended", files)};
     const std::string place = printed.function().place();

@@ -25,10 +25,18 @@ struct ExhibitEntry {
     const char* shipped;  ///< where halfframe has the form that holds, or why it has none yet
 };
 
+/// Modelled: one call at each pixel of 1280x720, mediump as half. No mediump hardware was measured.
+struct FixCost {
+    std::string profile;  ///< ps3, x360, es2_class
+    double printed_ms = 0.0;
+    double mended_ms = 0.0;
+};
+
 struct ExhibitResult {
     ExhibitEntry entry;
     FunctionStability printed;
     FunctionStability mended;
+    std::vector<FixCost> costs;
     bool found = false;       ///< the printed form is refused, with its file and line; the mended one is not
     Picture picture_printed;  ///< in half
     Picture picture_mended;

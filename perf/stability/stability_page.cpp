@@ -212,6 +212,19 @@ std::string picture(const Picture& drawn, const std::string& words) {
                        html_escaped(words), perf::base64(perf::png_bytes(drawn)), html_escaped(words));
 }
 
+std::string costs_paragraph(const std::vector<FixCost>& costs) {
+    std::string words;
+    for (const FixCost& cost : costs) {
+        words +=
+            fmt::format("{}{} {:+.3f} ms ({:.3f} for {:.3f})", words.empty() ? "" : "; ", html_escaped(cost.profile),
+                        cost.mended_ms - cost.printed_ms, cost.mended_ms, cost.printed_ms);
+    }
+    return "<p>What the fix costs, modelled, one call at each pixel of 1280x720, mediump as half (no mediump hardware "
+           "was "
+           "measured): " +
+           words + ".</p>\n";
+}
+
 std::string exhibit_section(const std::vector<ExhibitResult>& exhibit) {
     if (exhibit.empty()) return "";
     std::string html = "<h2 id=\"exhibit\">Listings as printed, half everywhere</h2>\n";
@@ -222,6 +235,7 @@ std::string exhibit_section(const std::vector<ExhibitResult>& exhibit) {
                             html_escaped(one.entry.shipped));
         if (!one.printed.violations.empty())
             html += "<p class=\"soft\">" + html_escaped(one.printed.violations.front()) + "</p>\n";
+        html += costs_paragraph(one.costs);
         html += "<div class=\"pair\">" + picture(one.picture_printed, "as printed, in half") +
                 picture(one.picture_mended, one.entry.mended + std::string(", in half")) + "</div>\n";
         html += section(one.printed, 1000 + 2 * i, "halfframe stability", false) +

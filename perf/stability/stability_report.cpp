@@ -66,6 +66,30 @@ std::string exemptions_text(const StabilityReport& report) {
     return text.empty() ? "" : "\nExemptions\n" + text;
 }
 
+/// The price of the form that holds.
+std::string costs_text(const std::vector<ExhibitResult>& exhibit) {
+    std::vector<perf::TextTable::Column> columns{{"what the fix costs", Align::left}};
+    for (const FixCost& cost : exhibit.front().costs) {
+        columns.push_back({cost.profile + " printed", Align::right});
+        columns.push_back({"mended", Align::right});
+        columns.push_back({"fix [ms]", Align::right});
+    }
+    perf::TextTable table(columns);
+    for (const ExhibitResult& one : exhibit) {
+        std::vector<std::string> row{one.entry.name};
+        for (const FixCost& cost : one.costs) {
+            row.push_back(fmt::format("{:.3f}", cost.printed_ms));
+            row.push_back(fmt::format("{:.3f}", cost.mended_ms));
+            row.push_back(fmt::format("{:+.3f}", cost.mended_ms - cost.printed_ms));
+        }
+        table.add_row(row);
+    }
+    return "\nModelled milliseconds of the shading units, one call at each pixel of 1280x720, mediump as half; no "
+           "mediump "
+           "hardware was measured\n" +
+           table.text();
+}
+
 std::string exhibit_text(const std::vector<ExhibitResult>& exhibit) {
     if (exhibit.empty()) return "";
     perf::TextTable table({{"listing as printed", Align::left},
@@ -85,7 +109,7 @@ std::string exhibit_text(const std::vector<ExhibitResult>& exhibit) {
         stories += fmt::format("  {}: {}. {}.\n", one.entry.name, one.entry.breaks, one.entry.shipped);
         if (!one.printed.violations.empty()) stories += "    " + one.printed.violations.front() + "\n";
     }
-    return "\nExhibit: listings as printed, half everywhere\n" + table.text() + stories;
+    return "\nExhibit: listings as printed, half everywhere\n" + table.text() + stories + costs_text(exhibit);
 }
 
 Json finding_json(const Declaration& function, const Finding& finding) {
@@ -98,6 +122,12 @@ Json finding_json(const Declaration& function, const Finding& finding) {
     }
     return {{"input", input},     {"component", finding.component}, {"expected", finding.expected},
             {"got", finding.got}, {"allowed", finding.allowed},     {"ratio", finding.ratio}};
+}
+
+Json costs_json(const std::vector<FixCost>& costs) {
+    Json json = Json::object();
+    for (const FixCost& cost : costs) json[cost.profile] = {{"printed", cost.printed_ms}, {"mended", cost.mended_ms}};
+    return json;
 }
 
 Json function_json(const FunctionStability& function) {
@@ -201,7 +231,8 @@ Json stability_json(const StabilityReport& report) {
                            {"breaks", one.entry.breaks},
                            {"shipped", one.entry.shipped},
                            {"printed", function_json(one.printed)},
-                           {"mended", function_json(one.mended)}});
+                           {"mended", function_json(one.mended)},
+                           {"modelled_ms", costs_json(one.costs)}});
     }
     const auto text_or_null = [](const std::string& text) { return text.empty() ? Json() : Json(text); };
     return {{"context", {{"driver", text_or_null(report.driver)}, {"missing", text_or_null(report.missing)}}},

@@ -1,6 +1,6 @@
 // Numbers that the shaders of environment and its C++ share.
 
-/* Largest light that an RGBM8 texel holds. Eight times what the tone map shows as white: a mirror of 0.04 still
+/* Largest light, after the exposure, that an RGBM8 texel holds. Eight times what the tone map shows as white: a mirror of 0.04 still
    reflects 0.3 of it. Brighter texels (a bare sun) are cut; a notice says how many. */
 #define ENVIRONMENT_RANGE 64.0
 

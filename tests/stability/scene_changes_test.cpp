@@ -62,6 +62,38 @@ TEST(SceneChanges, ExposureTakesBackWhatLightGains) {
     EXPECT_EQ(exposed.camera.exposure, 1e-4f);
 }
 
+TEST(SceneChanges, WhatMovesGoesAlongWithItsCourse) {
+    Shot shot = small_shot();
+    shot.scene.nodes = {{.name = "root", .translation = {1.0f, 2.0f, 3.0f}},
+                        {.name = "child", .parent = 0, .translation = {0.5f, 0.0f, 0.0f}}};
+    shot.scene.skins = {{.name = "skin", .joints = {0, 1}, .joint_from_mesh = {glm::mat4(1.0f), glm::mat4(1.0f)}}};
+    shot.scene.skins[0].joint_from_mesh[1][3] = {0.0f, -2.0f, 0.0f, 1.0f};
+    const auto channel = [](int node) {
+        return AnimationChannel{.node = node, .times_s = {0.0f, 2.0f}, .values = {1.0f, 2.0f, 3.0f, 1.0f, 2.0f, 5.0f}};
+    };
+    shot.scene.animations = {{.name = "walk", .channels = {channel(0), channel(1)}, .duration_s = 2.0f}};
+    const Shot away = moved(shot, {100.0, 0.0, 0.0});
+    EXPECT_EQ(away.scene.nodes[0].translation, glm::vec3(101.0f, 2.0f, 3.0f));
+    EXPECT_EQ(away.scene.nodes[1].translation, glm::vec3(0.5f, 0.0f, 0.0f)) << "it is relative to its parent";
+    EXPECT_EQ(away.scene.animations[0].channels[0].values[3], 101.0f);
+    EXPECT_EQ(away.scene.animations[0].channels[1].values[3], 1.0f);
+    const Shot small = in_units(shot, 1000.0);
+    EXPECT_EQ(small.scene.nodes[1].translation, glm::vec3(500.0f, 0.0f, 0.0f));
+    EXPECT_EQ(small.scene.skins[0].joint_from_mesh[1][3].y, -2000.0f);
+    EXPECT_EQ(small.scene.animations[0].channels[1].values[5], 5000.0f);
+    const Shot later = at_time(shot, 5.0);  // the second round's middle
+    EXPECT_EQ(later.scene.nodes[0].translation, glm::vec3(1.0f, 2.0f, 4.0f));
+}
+
+TEST(SceneChanges, ExposureTakesBackWhatTheEnvironmentGains) {
+    Shot shot = small_shot();
+    shot.scene.environment = EnvironmentMap{.size = 1, .levels = {{glm::vec3(2.0f)}}};
+    shot.scene.environment->irradiance[0] = glm::vec3(3.0f);
+    const Shot exposed = exposed_for(shot, 100.0f);
+    EXPECT_EQ(exposed.scene.environment->levels[0][0], glm::vec3(200.0f));
+    EXPECT_EQ(exposed.scene.environment->irradiance[0], glm::vec3(300.0f));
+}
+
 TEST(SceneChanges, TheAddedTrianglesHaveNoArea) {
     const Mesh mesh = with_empty_triangles(small_shot()).scene.meshes[0];
     ASSERT_EQ(mesh.indices.size(), 15u);

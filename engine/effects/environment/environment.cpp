@@ -42,13 +42,16 @@ std::span<const gl::Insertion> insertions(const PlanContext& context) {
     return kInsertions;
 }
 
+/// The largest light that RGBM8 keeps at `exposure`.
+float range_at(float exposure) { return static_cast<float>(ENVIRONMENT_RANGE) / exposure; }
+
 /// Square root of the largest light that is stored [sqrt(light)]; > 0.
-float root_range_of(const EnvironmentMap& map) {
+float root_range_of(const EnvironmentMap& map, float exposure) {
     float largest = 0.0f;
     for (const auto& level : map.levels) {
         for (const glm::vec3& texel : level) largest = std::max({largest, texel.r, texel.g, texel.b});
     }
-    return std::sqrt(std::clamp(largest, 1.0f / 64.0f, static_cast<float>(ENVIRONMENT_RANGE)));
+    return std::sqrt(std::clamp(largest, 1.0f / (64.0f * exposure), range_at(exposure)));
 }
 
 class EnvironmentWork final : public EffectWork {
@@ -56,7 +59,8 @@ public:
     explicit EnvironmentWork(Renderer& renderer)
         : map_(renderer.scene().environment ? *renderer.scene().environment : kNothing),
           tier_(renderer.tier_of("environment")),
-          root_range_(root_range_of(map_)) {
+          exposure_(renderer.plan().exposure),
+          root_range_(root_range_of(map_, exposure_)) {
         if (map_.levels.empty()) return;  // switched on by hand in a scene without one
         say_what_is_cut(renderer);
         const int largest = renderer.caps().max_cube_map_size;
@@ -87,7 +91,8 @@ public:
         const Adopted& adopted = adopted_[static_cast<std::size_t>(index)];
         gl::EntryPoints& gl = renderer.gl();
         if (adopted.scale >= 0) {
-            const float scale = tier_ == Tier::reference ? view.exposure : root_range_ * std::sqrt(view.exposure);
+            const float scale =
+                tier_ == Tier::reference ? view.exposure / exposure_ : root_range_ * std::sqrt(view.exposure);
             const glm::vec4 value(map_.levels.empty() ? 0.0f : scale,
                                   static_cast<float>(map_.roughest_level - first_level_), 0.0f, 0.0f);
             gl.Uniform4fv(adopted.scale, 1, &value.x);
@@ -111,14 +116,14 @@ private:
     void say_what_is_cut(Renderer& renderer) const {
         if (tier_ == Tier::reference) return;
         const auto& top = map_.levels.front();
-        const auto cut = std::ranges::count_if(top, [](const glm::vec3& texel) {
-            return std::max({texel.r, texel.g, texel.b}) > static_cast<float>(ENVIRONMENT_RANGE);
+        const auto cut = std::ranges::count_if(top, [&](const glm::vec3& texel) {
+            return std::max({texel.r, texel.g, texel.b}) > range_at(exposure_);
         });
         if (cut == 0) return;
         renderer.add_notice(fmt::format(
             "{:.2f} % of the environment {} is brighter than {} and is cut there in RGBM8; "
             "--tier environment=reference keeps it",
-            100.0 * static_cast<double>(cut) / static_cast<double>(top.size()), map_.name, ENVIRONMENT_RANGE));
+            100.0 * static_cast<double>(cut) / static_cast<double>(top.size()), map_.name, range_at(exposure_)));
     }
 
     /// `count` levels from `first` on as a cube.
@@ -155,7 +160,7 @@ private:
             for (std::size_t i = 0; i < face_texels; ++i) {
                 const glm::vec3& light = texels[static_cast<std::size_t>(face) * face_texels + i];
                 if (in_floats) {
-                    floats.emplace_back(glm::min(light, glm::vec3(kLargestHalf)), 1.0f);
+                    floats.emplace_back(glm::min(light * exposure_, glm::vec3(kLargestHalf)), 1.0f);
                 } else {
                     const auto texel = packed_rgbm(light, root_range_);
                     packed.insert(packed.end(), texel.begin(), texel.end());
@@ -174,6 +179,7 @@ private:
 
     const EnvironmentMap& map_;
     Tier tier_;
+    float exposure_;  ///< that what is stored is made for
     float root_range_;
     int first_level_ = 0;
     gl::Texture sharp_;

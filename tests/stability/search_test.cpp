@@ -199,6 +199,11 @@ TEST(Exhibit, EveryListingIsFoundAndWhatIsBesideItIsNot) {
     const std::vector<ExhibitEntry> entries = exhibit_list();
     for (const ExhibitEntry& entry : entries) {
         const ExhibitResult result = measure(entry, kFastEffort, nullptr);
+        ASSERT_EQ(result.costs.size(), 3u) << entry.name;
+        for (const FixCost& cost : result.costs) {
+            EXPECT_GT(cost.printed_ms, 0.0) << entry.name << " on " << cost.profile;
+            EXPECT_GT(cost.mended_ms, 0.0) << entry.name << " on " << cost.profile;
+        }
         EXPECT_TRUE(result.found) << entry.name;
         found += result.found ? 1 : 0;
         seen += result.picture_printed.rgba != result.picture_mended.rgba ? 1 : 0;

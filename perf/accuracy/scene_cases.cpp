@@ -112,6 +112,7 @@ private:
             "lights times 10^4", same, [](Shot shot) { return with_lights_times(std::move(shot), 1e4f); }, kExact,
             kBrighterHalf)
             .relation = Relation::never_darker;
+        if (lamps_ > 0) add("lamps of no range, against none", without_lamps, with_lamps_of_no_range, kExact, kExact);
         add("lights in the opposite order", same, with_lights_reversed, kExact, kExact);
         // As long as no surface gets more than it may have.
         if (lamps_ > 0 && 2 * lamps_ <= SURFACE_LIGHT_LIMIT)

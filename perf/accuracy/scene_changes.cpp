@@ -155,6 +155,18 @@ Shot with_lamps_halved(Shot shot) {
     return shot;
 }
 
+Shot without_lamps(Shot shot) {
+    std::erase_if(shot.scene.lights, is_lamp);
+    return shot;
+}
+
+Shot with_lamps_of_no_range(Shot shot) {
+    for (Light& light : shot.scene.lights) {
+        if (is_lamp(light)) light.range_m = 0.0f;
+    }
+    return shot;
+}
+
 Shot with_lights_times(Shot shot, float factor) {
     for (Light& light : shot.scene.lights) light.color *= factor;
     return shot;

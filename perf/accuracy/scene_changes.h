@@ -33,6 +33,12 @@ struct Shot {
 /// Every lamp as two of half its colour at the same place. The sun stays one: only one is drawn.
 [[nodiscard]] Shot with_lamps_halved(Shot shot);
 
+/// No lamps, the sun alone.
+[[nodiscard]] Shot without_lamps(Shot shot);
+
+/// Every lamp a volume of no size: a range of 0.
+[[nodiscard]] Shot with_lamps_of_no_range(Shot shot);
+
 /// Every light, the sun too, times `factor`; the ambient, the emission and the exposure stay.
 [[nodiscard]] Shot with_lights_times(Shot shot, float factor);
 

@@ -165,7 +165,7 @@ int main(int argc, char** argv) {
     app.add_option("--rounds", options.rounds, "Frames of every case")->check(CLI::Range(1, 100000));
     app.add_option("--tier", tier)->check(CLI::IsMember({"low", "console", "reference"}));
     CLI11_PARSE(app, argc, argv);
-    options.tier = tier == "low" ? Tier::low : tier == "reference" ? Tier::reference : Tier::console;
+    options.tier = tier_from_name(tier).value();  // CLI11 has checked it
     try {
         return bench::run_all(options);
     } catch (const std::exception& error) {

@@ -231,7 +231,7 @@ int main(int argc, char** argv) {
     app.add_option("--tier", tier)->check(CLI::IsMember({"low", "console", "reference"}));
     app.add_option("--arithmetic", arithmetic)->check(CLI::IsMember({"half", "full"}));
     CLI11_PARSE(app, argc, argv);
-    options.tier = tier == "low" ? Tier::low : tier == "reference" ? Tier::reference : Tier::console;
+    options.tier = tier_from_name(tier).value();  // CLI11 has checked it
     options.arithmetic = arithmetic == "half" ? Arithmetic::half : Arithmetic::full;
     try {
         return bench::run(options);

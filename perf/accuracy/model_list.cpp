@@ -8,6 +8,7 @@
 
 #include "engine/effects/environment/environment_reference.h"
 #include "engine/effects/surface/surface_reference.h"
+#include "engine/effects/wet_surface/wet_surface_reference.h"
 #include "engine/error.h"
 #include "engine/frame/effect_card.h"
 
@@ -45,7 +46,8 @@ std::vector<ModelEntry> model_list() {
         reflectance_of_mapping(&reference::power_from_roughness), radiance_of_mapping(&reference::power_from_roughness),
         furnace_of_ambient(&reference::fresnel_glossy),           furnace_of_direct_light(),
         glossy_fresnel_of_split_sum(&reference::fresnel_glossy),  reflection_of_integral(&reference::fresnel_glossy),
-        reflection_between_levels(&reference::reflection_level)};
+        reflection_between_levels(&reference::reflection_level),  diffuse_light_of_film(&reference::wet_material),
+        mirrored_light_of_film(&reference::wet_material),         radiance_of_film(&reference::wet_material)};
     std::vector<ModelEntry> list;
     for (const ModelEntry& entry : all) {
         if (find_effect(entry.effect) != nullptr) list.push_back(entry);

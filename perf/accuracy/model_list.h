@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/effects/wet_surface/wet_surface_reference.h"
 #include "perf/accuracy/function_list.h"
 
 namespace halfframe::accuracy {
@@ -57,5 +58,11 @@ using GlossyFresnel = double (*)(double specular, double smoothness, double n_v)
 [[nodiscard]] ModelEntry glossy_fresnel_of_split_sum(GlossyFresnel fresnel);
 /// Of the environment, but its Fresnel is the surface's.
 [[nodiscard]] ModelEntry reflection_of_integral(GlossyFresnel fresnel);
+
+// The models of wet surfaces; a test may plant another formula.
+using WetFormula = reference::WetMaterial (*)(const reference::DryMaterial& dry, double wetness);
+[[nodiscard]] ModelEntry diffuse_light_of_film(WetFormula wet);
+[[nodiscard]] ModelEntry mirrored_light_of_film(WetFormula wet);
+[[nodiscard]] ModelEntry radiance_of_film(WetFormula wet);
 
 }  // namespace halfframe::accuracy

@@ -78,6 +78,23 @@ TEST(Models, AnotherReflectionOfTheEnvironmentIsCaught) {
     }
 }
 
+TEST(Models, AnotherWayOfGettingWetIsCaught) {
+    using reference::DryMaterial;
+    using reference::WetMaterial;
+    const WetFormula dry = [](const DryMaterial& material, double) { return material; };
+    const WetFormula old_way = [](const DryMaterial& material, double wetness) {  // darkens all alike
+        WetMaterial wet = material;
+        for (double& channel : wet.albedo) channel *= 1.0 - 0.7 * wetness;
+        wet.smoothness = std::min(material.smoothness * (1.0 + 1.5 * wetness), 1.0);
+        return wet;
+    };
+    for (const WetFormula wrong : {dry, old_way}) {
+        EXPECT_FALSE(measure(diffuse_light_of_film(wrong)).violations.empty());
+        EXPECT_FALSE(measure(radiance_of_film(wrong)).violations.empty());
+    }
+    EXPECT_FALSE(measure(mirrored_light_of_film(dry)).violations.empty());
+}
+
 TEST(Models, TheTwoFurnacesThatLoseNothing) {
     // Albedo 1 and specular 0 at smoothness 0; albedo 0 and specular 1 at any: both give all back from any angle.
     int places = 0;

@@ -104,13 +104,14 @@ Scene make_wet_yard() {
                                 .range_m = 14.0f,
                                 .radius_m = 0.15f});
     };
-    lamp("warm lamp", {5.0f, 3.4f, 1.9f}, {-3.6f, 2.3f, -4.2f});
-    lamp("cool lamp", {1.6f, 2.6f, 4.2f}, {2.6f, 2.1f, -1.4f});
+    lamp("warm lamp", {11.0f, 7.4f, 4.1f}, {-3.6f, 2.3f, -4.0f});
+    lamp("cool lamp", {4.2f, 6.4f, 9.5f}, {2.6f, 2.1f, -1.4f});
+    lamp("front lamp", {4.5f, 4.3f, 4.0f}, {-2.4f, 2.6f, 2.6f});
     scene.environment = environment("night_sky", {.size = 32}).map;
     scene.background = glm::vec3(0.06f, 0.07f, 0.10f);
     scene.wetness = Wetness{.level = 0.9f};
     scene.puddles = Puddles{.level = 0.85f};
-    Camera camera = camera_looking({-1.6f, 1.7f, 6.4f}, {-0.4f, 0.55f, -1.5f}, 0.80f, world_box(scene));
+    Camera camera = camera_looking({-1.9f, 1.6f, 4.9f}, {-0.7f, 0.55f, -1.5f}, 0.80f, world_box(scene));
     camera.name = "yard";
     scene.cameras.push_back(camera);
     return scene;

@@ -1,6 +1,7 @@
 // Makes the materials and their textures.
 #include "content/street/materials.h"
 
+#include "content/noise.h"
 #include "content/plain_materials.h"
 #include "content/street/sign_textures.h"
 #include "content/street/street.h"
@@ -39,6 +40,22 @@ Material rained_on(Material material) {
     return material;
 }
 
+/// Walls stand in the rain's way edge on: they soak unevenly, in runs, to some half. A texture of its own for the
+/// water, which leaves no crack to fill.
+Image wall_water(std::uint32_t seed) {
+    constexpr int kTexels = 128;
+    Image image = blank("wall water", kTexels, kTexels, false);
+    for (int y = 0; y < kTexels; ++y) {
+        for (int x = 0; x < kTexels; ++x) {
+            const float u = static_cast<float>(x) / kTexels, v = static_cast<float>(y) / kTexels;
+            const float patches = layered_noise(u, v, 4, 3, seed);
+            const float runs = smooth_noise(u * 24.0f, 0.0f, 24, seed + 1u);
+            set_texel(image, x, y, {255.0f * (0.22f + 0.38f * patches + 0.18f * runs), 255.0f, 0.0f});
+        }
+    }
+    return image;
+}
+
 /// Shelter and puddles are painted on its vertices.
 Material ground(Material material) {
     material.water = WaterMask::vertex_color;
@@ -47,23 +64,29 @@ Material ground(Material material) {
 }
 
 void add_walls_and_ground(Builder& builder, Materials& of, std::uint32_t seed) {
+    const int wall_mask = builder.add_image(wall_water(mixed(seed, 14)));
+    const auto wall = [&](Material material) {
+        material.water = WaterMask::texture;
+        material.water_texture.image = wall_mask;
+        return material;
+    };
     const Material stone = textured(builder, "stone", stone_texture(mixed(seed, 1)));
-    of.stone = builder.add_material(rained_on(stone), {.side_m = kStoneSide_m, .wall = true});
+    of.stone = builder.add_material(wall(stone), {.side_m = kStoneSide_m, .wall = true});
     Material trim = stone;
     trim.name = "trim";
     trim.base_color = glm::vec4(1.0f);
-    of.trim = builder.add_material(rained_on(trim), {.side_m = kStoneSide_m, .wall = true});
+    of.trim = builder.add_material(wall(trim), {.side_m = kStoneSide_m, .wall = true});
     const auto sheltered = [&](Material material) {
         material.name = "sheltered " + material.name;
         return builder.add_material(std::move(material), {.side_m = kStoneSide_m, .wall = true});
     };
     of.sheltered_stone = sheltered(stone);
     of.sheltered_trim = sheltered(trim);
-    of.brick = builder.add_material(rained_on(textured(builder, "brick", brick_texture(mixed(seed, 2)))),
+    of.brick = builder.add_material(wall(textured(builder, "brick", brick_texture(mixed(seed, 2)))),
                                     {.side_m = kBrickSide_m, .wall = true});
-    of.plaster = builder.add_material(rained_on(textured(builder, "plaster", plaster_texture(mixed(seed, 3)))),
+    of.plaster = builder.add_material(wall(textured(builder, "plaster", plaster_texture(mixed(seed, 3)))),
                                       {.side_m = kPlasterSide_m, .wall = true});
-    of.panels = builder.add_material(rained_on(textured(builder, "panels", panel_texture(mixed(seed, 4)))),
+    of.panels = builder.add_material(wall(textured(builder, "panels", panel_texture(mixed(seed, 4)))),
                                      {.side_m = kPanelSide_m, .wall = true});
     of.zinc = builder.add_material(textured(builder, "zinc", zinc_texture(mixed(seed, 5))), {kZincSide_m});
     of.wood = builder.add_material(rained_on(textured(builder, "boards", wood_texture(mixed(seed, 6)))),

@@ -106,7 +106,7 @@ std::vector<FunctionEntry> puddles_functions() {
     };
     share.method = {5e-3, "0.906 and 12.7 stand for the cosines of 25 and 10 degrees"};
     share.in_float = {2e-5, "up is rounded to 6e-8 and multiplied by 12.7; 0.906 is rounded once"};
-    share.half = {1.6e-2, "0.906 is rounded by up to 2^-12 and the product by 2^-12: 12.7 times 5e-4, and five roundings"};
+    share.half = {1.3e-2, "0.906 is rounded by up to 2^-12 and the product by 2^-12: 12.7 times 5e-4, and five roundings"};
     share.flushed = share.half;
 
     FunctionEntry specular = entry("puddles", "water_specular", "specular and share 0..1");

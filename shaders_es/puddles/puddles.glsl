@@ -15,11 +15,13 @@ float puddle_share(float hollow, float height, float level, float up) {
 
 // Water reflects 2 % where it is looked at straight.
 //@domain specular, share: 0..1
+//@exempt half_flushed, es_minimum: within 0.0002; what is added is 0 below 2^-14: a 20th of a step of 8 bits
 //@promise in 0..1; where share == 0.0: result == specular
 vec3 water_specular(vec3 specular, float share) { return specular + (0.02 - specular) * share; }
 
 // Standing water is a mirror.
 //@domain smoothness, share: 0..1
+//@exempt half_flushed, es_minimum: within 0.0002; what is added is 0 below 2^-14: a 20th of a step of 8 bits
 //@promise in 0..1; rising share; where share == 0.0: result == smoothness
 float water_smoothness(float smoothness, float share) { return smoothness + (1.0 - smoothness) * share; }
 

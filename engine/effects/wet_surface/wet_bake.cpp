@@ -44,18 +44,29 @@ const Image* image_of(const Scene& scene, const Texture& texture) {
     return texture ? &scene.images[static_cast<std::size_t>(texture.image)] : nullptr;
 }
 
-/// The texel of `image` at the middle of texel (x, y) of a picture of `width` x `height`; white without an image.
-std::array<float, 4> texel_at(const Image* image, int x, int y, int width, int height) {
-    if (image == nullptr) return {1.0f, 1.0f, 1.0f, 1.0f};
-    // The nearest: sizes differ by powers of two, and a mean over pores is not the porosity of a mean.
-    const int column = std::min((2 * x + 1) * image->width / (2 * width), image->width - 1);
-    const int row = std::min((2 * y + 1) * image->height / (2 * height), image->height - 1);
-    const std::uint8_t* texel = &image->rgba[4 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(image->width) +
-                                                  static_cast<std::size_t>(column))];
-    std::array<float, 4> value{};
-    for (std::size_t i = 0; i < 4; ++i)
-        value[i] = i < 3 && image->srgb ? linear_codes()[texel[i]] : static_cast<float>(texel[i]) / 255.0f;
+glm::vec4 stored_texel(const Image& image, int column, int row) {
+    // Past an edge the picture begins again, as most textures do.
+    const auto x = static_cast<std::size_t>((column + image.width) % image.width);
+    const auto y = static_cast<std::size_t>((row + image.height) % image.height);
+    const std::uint8_t* texel = &image.rgba[4 * (y * static_cast<std::size_t>(image.width) + x)];
+    glm::vec4 value;
+    for (int i = 0; i < 4; ++i)
+        value[i] = i < 3 && image.srgb ? linear_codes()[texel[i]] : static_cast<float>(texel[i]) / 255.0f;
     return value;
+}
+
+/// `image` at the middle of texel (x, y) of a picture of `width` x `height`, filtered where it is smaller; white without
+/// an image.
+glm::vec4 texel_at(const Image* image, int x, int y, int width, int height) {
+    if (image == nullptr) return glm::vec4(1.0f);
+    const float u = (static_cast<float>(x) + 0.5f) * static_cast<float>(image->width) / static_cast<float>(width) - 0.5f;
+    const float v =
+        (static_cast<float>(y) + 0.5f) * static_cast<float>(image->height) / static_cast<float>(height) - 0.5f;
+    const auto column = static_cast<int>(std::floor(u)), row = static_cast<int>(std::floor(v));
+    const float right = u - static_cast<float>(column), down = v - static_cast<float>(row);
+    const auto texel = [&](int dx, int dy) { return stored_texel(*image, column + dx, row + dy); };
+    if (right == 0.0f && down == 0.0f) return texel(0, 0);
+    return glm::mix(glm::mix(texel(0, 0), texel(1, 0), right), glm::mix(texel(0, 1), texel(1, 1), right), down);
 }
 
 /// The images that decide a material's water, as they are sampled alike: see obstacle_to_writing().
@@ -190,7 +201,7 @@ private:
                 const auto dry_color = texel_at(images.color, x, y, images.width, images.height);
                 const auto dry_rough = texel_at(images.roughness, x, y, images.width, images.height);
                 const float factor = darker(texel);
-                for (std::size_t i = 0; i < 3; ++i) color.rgba[at + i] = srgb_code(dry_color[i] * factor);
+                for (int i = 0; i < 3; ++i) color.rgba[at + static_cast<std::size_t>(i)] = srgb_code(dry_color[i] * factor);
                 color.rgba[at + 3] = code(dry_color[3]);
                 write_roughness(material, texel, dry_rough, images.glossy, &rough.rgba[at]);
             }
@@ -200,11 +211,11 @@ private:
                                                     : material.metallic_roughness_texture.image)};
     }
 
-    void write_roughness(const Material& material, const Texel& texel, const std::array<float, 4>& dry, bool glossy,
+    void write_roughness(const Material& material, const Texel& texel, const glm::vec4& dry, bool glossy,
                          std::uint8_t* into) const {
         const float roughness = roughness_of(smoother(texel));
         const bool stays = texel.pores == 0.0f || texel.open == 0.0f;
-        for (std::size_t i = 0; i < 4; ++i) into[i] = glossy && i < 3 ? srgb_code(dry[i]) : code(dry[i]);
+        for (int i = 0; i < 4; ++i) into[i] = glossy && i < 3 ? srgb_code(dry[i]) : code(dry[i]);
         if (stays) return;
         if (glossy) into[3] = code((1.0f - roughness) / std::max(material.smoothness, 1e-6f));
         else into[1] = code(roughness / std::max(material.roughness, 1e-6f));

@@ -21,7 +21,7 @@ namespace halfframe {
 /// where all texels are alike and by new images where not. What is written takes up no more water.
 void write_wetness(const Scene& scene, MaterialChanges& changes);
 
-/// The scene with that done, whole: new images in it, images that nobody uses any more emptied out. Its wetness stays
+/// The scene with that done, whole: with the new images behind its own. Its wetness stays
 /// only where some material still shows it live.
 [[nodiscard]] Scene with_written_wetness(const Scene& scene);
 

@@ -45,6 +45,16 @@ bool is_wet(const Scene& scene) {
     return levels.diffuse > 0.0f || levels.specular > 0.0f;
 }
 
+/// Has its water texture cracks that fill?
+bool has_cracks(const Scene& scene, const Material& material) {
+    if (!material.water_texture) return false;
+    const std::vector<std::uint8_t>& rgba = scene.images[static_cast<std::size_t>(material.water_texture.image)].rgba;
+    for (std::size_t i = 1; i < rgba.size(); i += 4) {
+        if (rgba[i] < 255) return true;
+    }
+    return false;
+}
+
 /// Would the surface look the same without its water?
 bool water_shows(const Scene& scene, const Surface& surface) {
     return takes_water(scene, surface) && (is_wet(scene) || has_hollows(scene, surface));
@@ -197,7 +207,7 @@ WetLevels wet_levels(const Scene& scene) {
 
 WaterDecision water_decision(const Scene& scene, const Material& material) {
     if (material.water == WaterMask::none || material.model == MaterialModel::unlit) return {};
-    const bool fills = stands(scene) && (material.water == WaterMask::vertex_color || material.water_texture);
+    const bool fills = stands(scene) && (material.water == WaterMask::vertex_color || has_cracks(scene, material));
     if (!is_wet(scene) && !fills) return {};
     if (fills) return {WaterPath::live, "puddles stand on it"};
     if (!scene.wetness->is_static || scene.wetness->since_s) return {WaterPath::live, "the wetness may change"};
@@ -217,7 +227,7 @@ bool takes_water(const Scene& scene, const Surface& surface) {
 
 bool has_hollows(const Scene& scene, const Surface& surface) {
     const Material& material = material_of(scene, surface);
-    if (material.water_texture) return true;
+    if (has_cracks(scene, material)) return true;
     return material.water == WaterMask::vertex_color &&
            std::ranges::any_of(mesh_of(scene, surface).colors,
                                [](const glm::vec4& color) { return vertex_water(color.a).hollow > 0.0f; });

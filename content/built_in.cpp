@@ -27,6 +27,8 @@ const std::vector<BuiltInScene>& built_in_scenes() {
          &make_charts},
         {"lamps", "panels from smooth to rough under shining spheres and points: what the radius of a light does",
          &make_lamps},
+        {"wet_yard", "a yard after rain: hollows, joints, a canopy, and what soaks beside what does not",
+         &make_wet_yard},
         {"street", "Neo-Paris at night, made from a seed: facades, neon, an arcade, people; six cameras",
          [] { return make_street(street::kDefaultSeed); }, &make_street},
         {"memory_room", "a white space of glass shards, frames and light: translucents at many depths, from a seed",

@@ -14,6 +14,7 @@ namespace halfframe::content {
 [[nodiscard]] Scene make_spheres();
 [[nodiscard]] Scene make_lamps();
 [[nodiscard]] Scene make_test_room();
+[[nodiscard]] Scene make_wet_yard();
 [[nodiscard]] Scene make_street(std::uint32_t seed);
 [[nodiscard]] Scene make_memory_room(std::uint32_t seed);
 

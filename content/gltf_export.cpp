@@ -1,6 +1,7 @@
 // gltf_binary(): a Scene as a GLB that loads back to the same frame. Floats are written as they are, and factors in
 // powers of two, so that nothing is rounded on the way.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <map>
@@ -221,7 +222,17 @@ private:
             result["alphaCutoff"] = static_cast<double>(material.alpha_cutoff);
         }
         if (material.double_sided) result["doubleSided"] = true;
+        add_water(result, material);
         return result;
+    }
+
+    void add_water(json& result, const Material& material) {
+        constexpr std::array<const char*, 4> kMasks{"none", "everywhere", "vertex", "texture"};
+        if (material.water == WaterMask::none) return;
+        result["extras"]["hf_water"] = kMasks[static_cast<std::size_t>(material.water)];
+        if (material.water_texture) result["extras"]["hf_water_texture"] = texture_of(material.water_texture);
+        if (material.deepest_puddle_m != Material{}.deepest_puddle_m)
+            result["extras"]["hf_puddle_depth_m"] = static_cast<double>(material.deepest_puddle_m);
     }
 
     void add_camera(const Camera& camera) {
@@ -274,6 +285,13 @@ private:
             extras["hf_sky_horizon"] = array_of(scene_.sky->horizon);
             extras["hf_sky_ground"] = array_of(scene_.sky->ground);
         }
+        if (scene_.wetness) {
+            extras["hf_wetness"] = static_cast<double>(scene_.wetness->level);
+            if (!scene_.wetness->is_static) extras["hf_wetness_live"] = true;
+            if (scene_.wetness->since_s) extras["hf_rain_ended_s"] = static_cast<double>(*scene_.wetness->since_s);
+            extras["hf_drying_s"] = static_cast<double>(scene_.wetness->dry_s);
+        }
+        if (scene_.puddles) extras["hf_puddles"] = static_cast<double>(scene_.puddles->level);
         if (scene_.environment) {
             extras["hf_environment"] = scene_.environment->name;
             extras["hf_environment_size"] = scene_.environment->size;
@@ -319,6 +337,13 @@ std::vector<std::string> not_exported(const Scene& scene) {
         sentences.emplace_back("Animations and skins are not exported: everything stands as it is.");
     const bool morphs = std::ranges::any_of(scene.meshes, [](const Mesh& mesh) { return !mesh.morph_targets.empty(); });
     if (morphs) sentences.emplace_back("Morph targets are not exported: meshes have their base shape.");
+    const auto is_elsewhere = [](const Material& material) {
+        return material.water_texture && !(material.water_uv == material.base_color_uv);
+    };
+    if (std::ranges::any_of(scene.materials, is_elsewhere)) {
+        sentences.emplace_back(
+            "Water textures are exported at the coordinates of the base colour, which are not theirs everywhere.");
+    }
     const auto names = environment_names();
     if (scene.environment && std::ranges::find(names, scene.environment->name) == names.end()) {
         sentences.push_back(fmt::format("The environment {} is not built in: the file cannot be loaded with it.",

@@ -17,7 +17,7 @@
 namespace halfframe::content {
 namespace {
 
-enum class ValueKind { boolean, number, color, environment };
+enum class ValueKind { boolean, number, color, environment, water_mask, texture };
 
 struct Row {
     ExtrasOwner owner;
@@ -34,6 +34,14 @@ Sky& sky_of(const ExtrasTarget& target) {
     if (!target.scene->sky) target.scene->sky.emplace();
     return *target.scene->sky;
 }
+
+Wetness& wetness_of(const ExtrasTarget& target) {
+    if (!target.scene->wetness) target.scene->wetness = Wetness{.level = 0.0f};
+    return *target.scene->wetness;
+}
+
+/// In the order of WaterMask.
+constexpr std::array<std::string_view, 4> kWaterMasks{"none", "everywhere", "vertex", "texture"};
 
 constexpr std::array kRows{
     Row{ExtrasOwner::scene, "hf_environment", ValueKind::environment, 0.0, 0.0,
@@ -59,6 +67,32 @@ constexpr std::array kRows{
         [](const glm::vec3& value, const ExtrasTarget& target) { sky_of(target).horizon = value; }},
     Row{ExtrasOwner::scene, "hf_sky_ground", ValueKind::color, 0.0, 1.0, "display colour below the horizon",
         [](const glm::vec3& value, const ExtrasTarget& target) { sky_of(target).ground = value; }},
+    Row{ExtrasOwner::scene, "hf_wetness", ValueKind::number, 0.0, 1.0,
+        "how wet is what takes up water: 0 dry, 1 soaked",
+        [](const glm::vec3& value, const ExtrasTarget& target) { wetness_of(target).level = value.x; }},
+    Row{ExtrasOwner::scene, "hf_wetness_live", ValueKind::boolean, 0.0, 1.0,
+        "the wetness changes: it is not written into textures",
+        [](const glm::vec3& value, const ExtrasTarget& target) { wetness_of(target).is_static = value.x == 0.0f; }},
+    Row{ExtrasOwner::scene, "hf_rain_ended_s", ValueKind::number, 0.0, 1e6, "seconds since the rain stopped; all dries",
+        [](const glm::vec3& value, const ExtrasTarget& target) { wetness_of(target).since_s = value.x; }},
+    Row{ExtrasOwner::scene, "hf_drying_s", ValueKind::number, 0.1, 1e6, "all is dry this long after the rain [s]",
+        [](const glm::vec3& value, const ExtrasTarget& target) { wetness_of(target).dry_s = value.x; }},
+    Row{ExtrasOwner::scene, "hf_puddles", ValueKind::number, 0.0, 1.0,
+        "how far hollows are filled: 0 not at all, 1 to the brim",
+        [](const glm::vec3& value, const ExtrasTarget& target) { target.scene->puddles = Puddles{.level = value.x}; }},
+    Row{ExtrasOwner::material, "hf_water", ValueKind::water_mask, 0.0, 0.0,
+        "where it takes up water; vertex: alpha of COLOR_0, 0 sheltered, 127/255 open, 1 the deepest hollow",
+        [](const glm::vec3& value, const ExtrasTarget& target) {
+            target.material->water = static_cast<WaterMask>(std::lround(value.x));
+        }},
+    Row{ExtrasOwner::material, "hf_water_texture", ValueKind::texture, 0.0, 1e6,
+        "index of a texture at the coordinates of the base colour: R share of the water, G height",
+        [](const glm::vec3& value, const ExtrasTarget& target) {
+            *target.water_texture = static_cast<int>(std::lround(value.x));
+        }},
+    Row{ExtrasOwner::material, "hf_puddle_depth_m", ValueKind::number, 0.001, 10.0,
+        "depth of the deepest hollow of the vertices [m]",
+        [](const glm::vec3& value, const ExtrasTarget& target) { target.material->deepest_puddle_m = value.x; }},
     Row{ExtrasOwner::node, "hf_dynamic", ValueKind::boolean, 0.0, 1.0, "moves: casts a shadow at the low tier",
         [](const glm::vec3& value, const ExtrasTarget& target) { target.surface->dynamic = value.x > 0.0f; }},
     Row{ExtrasOwner::mesh, "hf_dynamic", ValueKind::boolean, 0.0, 1.0, "moves: casts a shadow at the low tier",
@@ -69,7 +103,7 @@ constexpr std::array kRows{
         [](const glm::vec3& value, const ExtrasTarget& target) { target.light->radius_m = value.x; }},
 };
 
-constexpr std::array<const char*, 5> kOwnerNames{"scene", "node", "mesh", "camera", "light"};
+constexpr std::array<const char*, 6> kOwnerNames{"scene", "node", "mesh", "camera", "light", "material"};
 const char* name_of(ExtrasOwner owner) { return kOwnerNames[static_cast<std::size_t>(owner)]; }
 
 const Row* row_of(ExtrasOwner owner, std::string_view key) {
@@ -111,6 +145,16 @@ glm::vec3 value_of(const Row& row, const JsonPlace& place) {
                        fmt::format("choose one of {}", fmt::join(names, ", ")));
         }
         value.x = static_cast<float>(found - names.begin());
+    } else if (row.kind == ValueKind::water_mask) {
+        const auto found = std::ranges::find(kWaterMasks, place.text());
+        if (found == kWaterMasks.end()) {
+            const std::vector<std::string> words(kWaterMasks.begin(), kWaterMasks.end());
+            place.fail(fmt::format("there is no mask '{}'{}", place.text(), did_you_mean(place.text(), words)),
+                       fmt::format("choose one of {}", fmt::join(words, ", ")));
+        }
+        value.x = static_cast<float>(found - kWaterMasks.begin());
+    } else if (row.kind == ValueKind::texture) {
+        value.x = static_cast<float>(place.whole(0, static_cast<std::uint64_t>(row.highest)));
     } else if (row.kind == ValueKind::number) {
         value.x = static_cast<float>(place.number(row.lowest, row.highest));
     } else {
@@ -133,6 +177,29 @@ void for_each_key(const JsonPlace& object, ExtrasOwner owner, Visit&& visit) {
     }
 }
 
+/// What the keys of one material say together.
+void check_water(const JsonPlace& root, const JsonPlace& material) {
+    Material read;
+    int texture = -1;
+    apply_extras(material, ExtrasOwner::material, {.material = &read, .water_texture = &texture});
+    if (texture >= 0) {
+        const std::size_t count = root.has("textures") ? root.at("textures").size() : 0;
+        if (static_cast<std::size_t>(texture) >= count) {
+            material.at("extras").at("hf_water_texture").fail(
+                fmt::format("there is no texture {}: the file has {}", texture, count));
+        }
+    }
+    if (read.water == WaterMask::texture && texture < 0) {
+        material.at("extras").at("hf_water").fail("the mask is in a texture and none is named",
+                                                  "name one with hf_water_texture");
+    }
+    const bool opaque = !material.has("alphaMode") || material.at("alphaMode").text() == "OPAQUE";
+    if (read.water == WaterMask::vertex_color && !opaque) {
+        material.at("extras").at("hf_water").fail("the alpha of the vertices is needed for coverage here",
+                                                  "write everywhere or texture, or make the material OPAQUE");
+    }
+}
+
 }  // namespace
 
 void check_gltf_extras(const GltfDocument& document) {
@@ -146,6 +213,8 @@ void check_gltf_extras(const GltfDocument& document) {
     check_all(root, "nodes", ExtrasOwner::node);
     check_all(root, "meshes", ExtrasOwner::mesh);
     check_all(root, "cameras", ExtrasOwner::camera);
+    check_all(root, "materials", ExtrasOwner::material);
+    for_each_object(root, "materials", [&](const JsonPlace& object, std::size_t) { check_water(root, object); });
     if (const auto lights = extension(root, "KHR_lights_punctual")) check_all(*lights, "lights", ExtrasOwner::light);
 }
 
@@ -166,6 +235,8 @@ std::string extras_schema() {
                 {"type", "number"}, {"minimum", row.lowest}, {"maximum", row.highest}};
             nlohmann::ordered_json type = number;
             if (row.kind == ValueKind::environment) type = {{"enum", environment_names()}};
+            if (row.kind == ValueKind::water_mask) type = {{"enum", kWaterMasks}};
+            if (row.kind == ValueKind::texture) type["type"] = "integer";
             if (row.kind == ValueKind::boolean) type = {{"enum", {false, true, 0, 1}}};
             if (row.kind == ValueKind::color)
                 type = {{"type", "array"}, {"items", number}, {"minItems", 3}, {"maxItems", 3}};

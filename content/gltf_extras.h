@@ -10,7 +10,7 @@
 namespace halfframe::content {
 
 /// The object of a glTF file that an `extras` belongs to.
-enum class ExtrasOwner { scene, node, mesh, camera, light };
+enum class ExtrasOwner { scene, node, mesh, camera, light, material };
 
 /// The environment that a file asks for: a built-in one, made when all is read.
 struct Surroundings {
@@ -25,6 +25,8 @@ struct ExtrasTarget {
     Surface* surface = nullptr;
     Camera* camera = nullptr;
     Light* light = nullptr;
+    Material* material = nullptr;
+    int* water_texture = nullptr;  ///< with `material`: index in the file's textures
 };
 
 /// Every key hf_* of the document is known where it stands, and its value is in range. Else Error(input) with the

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "content/gltf_extensions.h"
+#include "content/gltf_extras.h"
 
 namespace halfframe::content {
 namespace {
@@ -179,13 +180,18 @@ float emissive_strength_of(const JsonPlace& place) {
 std::set<std::size_t> images_used_by_materials(const GltfDocument& document) {
     const JsonPlace root = document.root();
     std::set<std::size_t> used;
+    const auto use_image = [&](std::uint64_t index) {
+        const JsonPlace texture = root.at("textures").at(static_cast<std::size_t>(index));
+        if (texture.has("source")) used.insert(static_cast<std::size_t>(texture.at("source").whole()));
+    };
     for_each_object(root, "materials", [&](const JsonPlace& material, std::size_t) {
         for_each_texture_use(material, [&](const Slot&, const JsonPlace& use) {
-            const JsonPlace texture = root.at("textures").at(static_cast<std::size_t>(use.at("index").whole()));
-            if (texture.has("source")) {
-                used.insert(static_cast<std::size_t>(texture.at("source").whole()));
-            }
+            use_image(use.at("index").whole());
         });
+        Material water;
+        int texture = -1;
+        apply_extras(material, ExtrasOwner::material, {.material = &water, .water_texture = &texture});
+        if (texture >= 0) use_image(static_cast<std::uint64_t>(texture));
     });
     return used;
 }
@@ -242,6 +248,12 @@ Material GltfMaterials::converted(int material) {
         result.*slot.texture = scene_texture(static_cast<int>(use.at("index").whole()), slot.srgb);
         result.*slot.uv = mapping;
     });
+    int water_texture = -1;
+    apply_extras(place, ExtrasOwner::material, {.material = &result, .water_texture = &water_texture});
+    if (water_texture >= 0) {
+        result.water_texture = scene_texture(water_texture, false);
+        result.water_uv = result.base_color_uv;
+    }
     return result;
 }
 

@@ -27,6 +27,12 @@ constexpr auto kEffects = std::to_array<const EffectCard*>({
 #ifndef HALFFRAME_WITHOUT_SHADOW
     &kShadow,  // after surface and transparent: it marks that their passes read its map
 #endif
+#ifndef HALFFRAME_WITHOUT_WET_SURFACE
+    &kWetSurface,
+#endif
+#ifndef HALFFRAME_WITHOUT_PUDDLES
+    &kPuddles,  // after wet_surface: it soaks what stands under water first
+#endif
 #ifndef HALFFRAME_WITHOUT_TONE_MAP
     &kToneMap,
 #endif

@@ -11,6 +11,8 @@ extern const EffectCard kSurface;
 extern const EffectCard kSky;
 extern const EffectCard kTransparent;
 extern const EffectCard kShadow;
+extern const EffectCard kWetSurface;
+extern const EffectCard kPuddles;
 extern const EffectCard kToneMap;
 extern const EffectCard kBloom;
 extern const EffectCard kAntiAlias;

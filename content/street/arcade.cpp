@@ -118,12 +118,16 @@ void add_hanging_lamp(Site& site, bool light) {
 void add_arcade(Site& site) {
     Builder& builder = site.builder;
     const Materials& of = site.of;
+    Materials under_cover = of;
+    under_cover.stone = of.sheltered_stone;
+    under_cover.trim = of.sheltered_trim;
+    Site inside{builder, under_cover, site.street, site.seed};
     const glm::vec3 to_road(-1.0f, 0.0f, 0.0f);
     for (int bay = 0; bay < kBays; ++bay) {
         builder.place(facing({kFacadeX, 0.0f, kArcadeFar + kBay_m * static_cast<float>(bay)}, to_road));
         add_arch(site);
         add_pier(site);
-        add_vault(site);
+        add_vault(inside);
         add_hanging_lamp(site, bay % 2 == 0);
     }
     builder.place(facing({kFacadeX, 0.0f, kArcadeNear}, to_road));
@@ -131,10 +135,10 @@ void add_arcade(Site& site) {
     // Shops behind, and the wall over them up into the vaults.
     const float length = kArcadeNear - kArcadeFar;
     builder.place(facing({kArcadeWall, 0.0f, kArcadeFar}, to_road));
-    add_ground_floor(site, length, kArcadeTop_m, site.random(77), false);
+    add_ground_floor(inside, length, kArcadeTop_m, site.random(77), false);
     // Its ends: the near one is closed by the next house, the far one opens to the crossing through an arch of its own.
     builder.place(glm::mat4(1.0f));
-    builder.quad(of.stone, {kArcadeWall, 0.0f, kArcadeNear}, {kFacadeX - kArcadeWall, 0.0f, 0.0f},
+    builder.quad(under_cover.stone, {kArcadeWall, 0.0f, kArcadeNear}, {kFacadeX - kArcadeWall, 0.0f, 0.0f},
                  {0.0f, kArcadeTop_m, 0.0f});
     builder.place(facing({kFacadeX + kDepth_m, 0.0f, kArcadeFar}, {0.0f, 0.0f, -1.0f}));
     add_ground_floor(site, kFacadeX + kDepth_m - kArcadeWall, kArcadeTop_m, site.random(78), false);
@@ -146,12 +150,16 @@ void add_arcade(Site& site) {
     const int rows = 26;
     const glm::vec3 across((kArcadeWall - kFacadeX) / columns, 0.0f, 0.0f);
     const glm::vec3 along(0.0f, 0.0f, length / rows);
+    // Rain blows in between the piers and no farther than a step.
+    const auto open = [&](int column) { return column == 0 ? 1.0f : column == 1 ? 0.25f : 0.0f; };
     for (int row = 0; row < rows; ++row) {
-        for (int column = 0; column < columns; ++column)
-            builder.quad(of.paving,
-                         glm::vec3(kFacadeX, kPavement_m, kArcadeFar) + across * static_cast<float>(column) +
-                             along * static_cast<float>(row + 1),
-                         across, -along);
+        for (int column = 0; column < columns; ++column) {
+            const glm::vec3 corner = glm::vec3(kFacadeX, kPavement_m, kArcadeFar) +
+                                     across * static_cast<float>(column) + along * static_cast<float>(row + 1);
+            const glm::vec4 outer = water_color(open(column), 0.0f), inner = water_color(open(column + 1), 0.0f);
+            builder.colored_patch(of.paving, {corner, corner + across, corner + across - along, corner - along},
+                                  {outer, inner, inner, outer});
+        }
     }
 }
 

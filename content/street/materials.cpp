@@ -1,8 +1,10 @@
 // Makes the materials and their textures.
 #include "content/street/materials.h"
 
+#include "content/noise.h"
 #include "content/plain_materials.h"
 #include "content/street/sign_textures.h"
+#include "content/street/street.h"
 #include "content/street/textures.h"
 
 namespace halfframe::content::street {
@@ -32,28 +34,71 @@ Material textured(Builder& builder, const char* name, TextureSet set, float norm
     return material;
 }
 
+/// Rain soaks all of it. Never under a vertex colour: the plan can write it into textures.
+Material rained_on(Material material) {
+    material.water = WaterMask::everywhere;
+    return material;
+}
+
+/// Walls stand in the rain's way edge on: they soak unevenly, in runs, to some half. A texture of its own for the
+/// water, which leaves no crack to fill.
+Image wall_water(std::uint32_t seed) {
+    constexpr int kTexels = 128;
+    Image image = blank("wall water", kTexels, kTexels, false);
+    for (int y = 0; y < kTexels; ++y) {
+        for (int x = 0; x < kTexels; ++x) {
+            const float u = static_cast<float>(x) / kTexels, v = static_cast<float>(y) / kTexels;
+            const float patches = layered_noise(u, v, 4, 3, seed);
+            const float runs = smooth_noise(u * 24.0f, 0.0f, 24, seed + 1u);
+            set_texel(image, x, y, {255.0f * (0.22f + 0.38f * patches + 0.18f * runs), 255.0f, 0.0f});
+        }
+    }
+    return image;
+}
+
+/// Shelter and puddles are painted on its vertices.
+Material ground(Material material) {
+    material.water = WaterMask::vertex_color;
+    material.deepest_puddle_m = kDeepestPuddle_m;
+    return material;
+}
+
 void add_walls_and_ground(Builder& builder, Materials& of, std::uint32_t seed) {
+    const int wall_mask = builder.add_image(wall_water(mixed(seed, 14)));
+    const auto wall = [&](Material material) {
+        material.water = WaterMask::texture;
+        material.water_texture.image = wall_mask;
+        return material;
+    };
     const Material stone = textured(builder, "stone", stone_texture(mixed(seed, 1)));
-    of.stone = builder.add_material(stone, {.side_m = kStoneSide_m, .wall = true});
+    of.stone = builder.add_material(wall(stone), {.side_m = kStoneSide_m, .wall = true});
     Material trim = stone;
     trim.name = "trim";
     trim.base_color = glm::vec4(1.0f);
-    of.trim = builder.add_material(trim, {.side_m = kStoneSide_m, .wall = true});
-    of.brick = builder.add_material(textured(builder, "brick", brick_texture(mixed(seed, 2))),
+    of.trim = builder.add_material(wall(trim), {.side_m = kStoneSide_m, .wall = true});
+    const auto sheltered = [&](Material material) {
+        material.name = "sheltered " + material.name;
+        return builder.add_material(std::move(material), {.side_m = kStoneSide_m, .wall = true});
+    };
+    of.sheltered_stone = sheltered(stone);
+    of.sheltered_trim = sheltered(trim);
+    of.brick = builder.add_material(wall(textured(builder, "brick", brick_texture(mixed(seed, 2)))),
                                     {.side_m = kBrickSide_m, .wall = true});
-    of.plaster = builder.add_material(textured(builder, "plaster", plaster_texture(mixed(seed, 3))),
+    of.plaster = builder.add_material(wall(textured(builder, "plaster", plaster_texture(mixed(seed, 3)))),
                                       {.side_m = kPlasterSide_m, .wall = true});
-    of.panels = builder.add_material(textured(builder, "panels", panel_texture(mixed(seed, 4))),
+    of.panels = builder.add_material(wall(textured(builder, "panels", panel_texture(mixed(seed, 4)))),
                                      {.side_m = kPanelSide_m, .wall = true});
     of.zinc = builder.add_material(textured(builder, "zinc", zinc_texture(mixed(seed, 5))), {kZincSide_m});
-    of.wood = builder.add_material(textured(builder, "boards", wood_texture(mixed(seed, 6))), {kWoodSide_m});
-    of.asphalt = builder.add_material(textured(builder, "asphalt", asphalt_texture(mixed(seed, 7))),
+    of.wood = builder.add_material(rained_on(textured(builder, "boards", wood_texture(mixed(seed, 6)))),
+                                   {kWoodSide_m});
+    of.asphalt = builder.add_material(ground(textured(builder, "asphalt", asphalt_texture(mixed(seed, 7)))),
                                       {.side_m = kAsphaltSide_m, .colors = true});
-    of.cobbles = builder.add_material(textured(builder, "cobbles", cobble_texture(mixed(seed, 8))),
+    of.cobbles = builder.add_material(ground(textured(builder, "cobbles", cobble_texture(mixed(seed, 8)))),
                                       {.side_m = kCobbleSide_m, .colors = true});
-    of.paving = builder.add_material(textured(builder, "paving", paving_texture(mixed(seed, 9))), {kPavingSide_m});
-    of.kerb = builder.add_material(dielectric("kerb", {0.16f, 0.165f, 0.17f}, 0.55f), {});
-    of.paint = builder.add_material(dielectric("road paint", {0.42f, 0.43f, 0.44f}, 0.45f), {});
+    of.paving = builder.add_material(ground(textured(builder, "paving", paving_texture(mixed(seed, 9)))),
+                                     {.side_m = kPavingSide_m, .colors = true});
+    of.kerb = builder.add_material(rained_on(dielectric("kerb", {0.16f, 0.165f, 0.17f}, 0.55f)), {});
+    of.paint = builder.add_material(rained_on(dielectric("road paint", {0.42f, 0.43f, 0.44f}, 0.45f)), {});
 }
 
 void add_openings(Builder& builder, Materials& of, std::uint32_t seed) {

@@ -8,8 +8,9 @@ namespace halfframe::content::street {
 struct Materials {
     // Walls and ground.
     int stone = -1, trim = -1, brick = -1, plaster = -1, panels = -1, zinc = -1, wood = -1;
-    int asphalt = -1;  ///< vertices carry the depth of puddles: see road.h
-    int cobbles = -1, paving = -1, kerb = -1, paint = -1;
+    int sheltered_stone = -1, sheltered_trim = -1;  ///< as stone and trim, where no rain falls
+    int asphalt = -1, cobbles = -1, paving = -1;    ///< alpha of their vertices: shelter and puddles (vertex_water())
+    int kerb = -1, paint = -1;
     // Openings.
     int window = -1, shop_window = -1, glass = -1, railing = -1, shutter_blue = -1, shutter_grey = -1, door = -1;
     // Things.

@@ -4,6 +4,7 @@
 
 #include "content/noise.h"
 #include "content/street/site.h"
+#include "engine/effects/wet_surface/wet_surface.h"
 
 namespace halfframe::content::street {
 
@@ -24,7 +25,7 @@ void add_ground(Site& site, int material, float x0, float x1, float z0, float z1
         return glm::vec3(x, road_height_m(x), z);
     };
     const auto water = [&](const glm::vec3& at) {
-        return glm::vec4(1.0f, 1.0f, 1.0f, puddle_depth_m(at.x, at.z, site.seed) / kDeepestPuddle_m);
+        return water_color(1.0f, puddle_depth_m(at.x, at.z, site.seed));
     };
     for (int row = 0; row < rows; ++row) {
         for (int column = 0; column < columns; ++column) {
@@ -62,6 +63,7 @@ void add_pavement(Site& site, float x0, float x1, float z0, float z1, unsigned k
     const int rows = std::max(1, static_cast<int>(std::lround((z1 - z0) / 1.5f)));
     const glm::vec3 across((x1 - x0) / static_cast<float>(columns), 0.0f, 0.0f);
     const glm::vec3 along(0.0f, 0.0f, (z1 - z0) / static_cast<float>(rows));
+    builder.color(water_color(1.0f, 0.0f));
     for (int row = 0; row < rows; ++row) {
         for (int column = 0; column < columns; ++column)
             builder.quad(site.of.paving,
@@ -69,6 +71,7 @@ void add_pavement(Site& site, float x0, float x1, float z0, float z1, unsigned k
                              along * static_cast<float>(row + 1),
                          across, -along);
     }
+    builder.color(glm::vec4(1.0f));
 }
 
 void add_markings(Site& site) {
@@ -103,6 +106,10 @@ void add_markings(Site& site) {
 }
 
 }  // namespace
+
+glm::vec4 water_color(float open, float depth_m) {
+    return {1.0f, 1.0f, 1.0f, vertex_alpha({open, depth_m / kDeepestPuddle_m})};
+}
 
 float road_height_m(float x) {
     const float share = std::min(std::abs(x) / kKerbX, 1.0f);
@@ -146,7 +153,7 @@ void add_road(Site& site) {
     for (float x = kAlleyEnd; x < -kFacadeX - 0.1f; x += 1.0f) {
         for (float z = kAlleyFar; z < kAlleyNear - 0.1f; z += 1.2f) {
             const auto water = [&](float px, float pz) {
-                return glm::vec4(1.0f, 1.0f, 1.0f, puddle_depth_m(px, pz, site.seed) / kDeepestPuddle_m);
+                return water_color(1.0f, puddle_depth_m(px, pz, site.seed));
             };
             builder.colored_patch(of.cobbles,
                                   {glm::vec3(x, kPavement_m, z + 1.2f), glm::vec3(x + 1.0f, kPavement_m, z + 1.2f),

@@ -32,10 +32,12 @@ struct Street {
 /// 2084: the year of the talk's Neo-Paris.
 constexpr std::uint32_t kDefaultSeed = 2084;
 
-/// Depth of standing water that a vertex alpha of 1 means [m]. On asphalt and cobbles COLOR_0 is (1, 1, 1, depth /
-/// kDeepestPuddle_m): white leaves the albedo alone, and an opaque material has no use for alpha, so that nothing
-/// shows before an effect for wet surfaces reads it.
+/// Depth of the deepest hollow [m].
 constexpr float kDeepestPuddle_m = 0.04f;
+/// COLOR_0 of asphalt, cobbles and paving: white, which leaves the albedo alone, and an alpha, for which an opaque
+/// material has no other use, that says how open the place is to the rain (0..1) and how deep its hollow [m]
+/// (vertex_alpha()).
+[[nodiscard]] glm::vec4 water_color(float open, float depth_m);
 /// How deep water stands on the road at (x, z) [m], 0 where it is dry.
 [[nodiscard]] float puddle_depth_m(float x, float z, std::uint32_t seed);
 /// Height of the road over its gutters [m]: it is cambered.

@@ -17,6 +17,8 @@ int EffectWork::adopt(Renderer&, gl::Program&) { return -1; }
 
 void EffectWork::feed(Renderer&, const View&, int) {}
 
+void EffectWork::feed_material(Renderer&, int, int) {}
+
 namespace {
 
 bool lists_word(std::string_view words, std::string_view word) {

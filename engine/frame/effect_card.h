@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "engine/frame/scene.h"
 #include "engine/frame/tier.h"
@@ -73,6 +74,15 @@ public:
     virtual int adopt(Renderer& renderer, gl::Program& program);
     /// An adopted program has become current: sets what its insertions read, binds their textures.
     virtual void feed(Renderer& renderer, const View& view, int adopted);
+    /// The same for what depends on the material: the draws that follow with an adopted program have this one.
+    virtual void feed_material(Renderer& renderer, int adopted, int material);
+};
+
+/// What effects may write into a scene once and for all: its materials, and images that are new beside Scene::images.
+struct MaterialChanges {
+    std::vector<Material> materials;  ///< as many as the scene has
+    std::vector<Image> images;        ///< image i of these is Scene::images.size() + i to a Texture
+    std::vector<int> instead_of;      ///< for each of them the image of the scene that it replaces, as large; -1: none
 };
 
 struct EffectCard {
@@ -91,6 +101,12 @@ struct EffectCard {
     void (*add_passes)(const PlanContext&, FramePlan&) = nullptr;
     /// Material effects (and pass effects that also change other shaders): the code to add. Runs only when called for.
     std::span<const gl::Insertion> (*insertions)(const PlanContext&) = nullptr;
+    /// Material effects that only some surfaces call for: adds the defines that the program of `surface` needs for its
+    /// insertions (Insertion::only_with). Runs while preparing; only when called for.
+    void (*add_defines)(const Renderer&, int surface, std::vector<std::string_view>& defines) = nullptr;
+    /// What never changes may be written into the materials before they are uploaded: it costs a frame nothing. Runs
+    /// only when called for.
+    void (*change_materials)(const Scene&, const FramePlan&, MaterialChanges&) = nullptr;
     /// Compiles and uploads what draw() and feed() need. Runs only when the plan holds a pass of the effect, or a
     /// program that it inserts code into. May be nullptr for insertions that read nothing.
     std::unique_ptr<EffectWork> (*prepare)(Renderer&) = nullptr;

@@ -268,6 +268,7 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Wishes& wishes,
     plan.arithmetic = chosen_arithmetic(wishes, caps);
     plan.storage = chosen_storage(wishes, plan.tier, caps, plan.notices);
     plan.census = wishes.census;
+    plan.fixed_view = wishes.fixed_view;
     plan.vertices = wishes.vertices;
     plan.textures = chosen_textures(wishes, caps, plan.notices);
     if (!wishes.storage && !wishes.census) plan.bytes_per_pixel_limit = bytes_per_pixel_limit(plan.tier);

@@ -26,6 +26,7 @@ struct Wishes {
     bool census = false;                                        ///< every colour target RGBA32F, to count NaN and inf
     VertexPrecision vertices = VertexPrecision::half;           ///< bits of positions, directions, UVs and colours
     std::optional<TextureCompression> textures;                 ///< empty: what the device profile says, else none
+    bool fixed_view = false;  ///< only the view that the plan is made for is drawn: what it does not see may be left out
 };
 
 /// A texture that passes write and read.
@@ -83,6 +84,7 @@ struct FramePlan {
     Arithmetic arithmetic = Arithmetic::full;
     gl::PixelFormat storage = gl::PixelFormat::rgba16f;  ///< of scene_color
     bool census = false;
+    bool fixed_view = false;  ///< Wishes::fixed_view
     VertexPrecision vertices = VertexPrecision::half;
     TextureCompression textures = TextureCompression::none;
     /// Limit on the bytes a pixel of all targets together: the tier's, or none when the storage was asked for by name.

@@ -18,6 +18,13 @@ namespace {
 /// One triangle that covers the target: no diagonal is shaded twice.
 constexpr std::array<float, 6> kFullScreenTriangle = {-1.0f, -1.0f, 3.0f, -1.0f, -1.0f, 3.0f};
 
+/// Does an insertion go into the shaders whose points begin with `prefix`, made with `defines`?
+bool belongs(const gl::Insertion& insertion, const std::string& prefix, const std::vector<gl::Define>& defines) {
+    return std::string_view(insertion.point).starts_with(prefix) &&
+           (insertion.only_with == nullptr ||
+            std::ranges::any_of(defines, [&](const gl::Define& one) { return one.first == insertion.only_with; }));
+}
+
 }  // namespace
 
 Renderer::Renderer(gl::EntryPoints& gl, const gl::Caps& caps, RendererDescription description)
@@ -36,6 +43,7 @@ void Renderer::prepare(const Scene& scene, const FramePlan& plan) {
     works_.clear();
     work_of_pass_.clear();
     adoptions_.clear();
+    uses_.clear();
     targets_ = std::make_unique<RenderTargets>(gl_, caps_);
     state_.forget();
     moving_.reset();
@@ -47,6 +55,8 @@ void Renderer::prepare(const Scene& scene, const FramePlan& plan) {
     own_texture_bytes_ = 0;
     scene_ = &scene;
     plan_ = plan;
+    change_materials();
+    textures_->add_images(changes_.images, changes_.instead_of);
     while (gl_.GetError() != GL_NO_ERROR) {}  // what came before is not ours
     set_known_transfer_state(gl_, caps_);
     if (caps_.core_profile) {
@@ -112,7 +122,7 @@ void Renderer::adopt_insertions(const std::string& prefix, gl::Program& program)
     if (std::ranges::any_of(adoptions_, is_known)) return;
     for (const EffectDecision& decision : plan_.effects) {
         const auto is_here = [&](const gl::Insertion& insertion) {
-            return std::string_view(insertion.point).starts_with(prefix);
+            return belongs(insertion, prefix, program.description().defines);
         };
         if (!std::ranges::any_of(decision.insertions, is_here)) continue;
         EffectWork* work = work_of(decision.effect);
@@ -275,12 +285,75 @@ gl::Program& Renderer::program(const EffectCard& card, int variant, std::span<co
     const std::string prefix = insertion_prefix(shaders[static_cast<std::size_t>(variant)]);
     for (const EffectDecision& decision : plan_.effects) {
         for (const gl::Insertion& insertion : decision.insertions) {
-            if (std::string_view(insertion.point).starts_with(prefix)) description.insertions.push_back(insertion);
+            if (belongs(insertion, prefix, description.defines)) description.insertions.push_back(insertion);
         }
     }
     gl::Program& made = programs_.get(description);
+    note_program(card.name, prefix, made);
     adopt_insertions(prefix, made);
     return made;
+}
+
+void Renderer::note_program(std::string_view effect, const std::string& prefix, const gl::Program& program) {
+    if (std::ranges::find(uses_, program.name(), &NotedUse::program) != uses_.end()) return;
+    ProgramUse use{.effect = std::string(effect), .defines = {}, .insertions = {}, .users = {}};
+    const auto add = [](std::string& words, std::string_view word) {
+        words += words.empty() ? "" : " ";
+        words += word;
+    };
+    const auto& defines = program.description().defines;
+    for (const auto& [word, value] : defines) {
+        if (!word.starts_with("TIER_")) add(use.defines, word);
+    }
+    for (const EffectDecision& decision : plan_.effects) {
+        const auto is_here = [&](const gl::Insertion& insertion) { return belongs(insertion, prefix, defines); };
+        if (std::ranges::any_of(decision.insertions, is_here)) add(use.insertions, decision.effect);
+    }
+    uses_.push_back({program.name(), std::move(use)});
+}
+
+void Renderer::note_use(const gl::Program& program, const std::string& material_name) {
+    const auto noted = std::ranges::find(uses_, program.name(), &NotedUse::program);
+    if (noted == uses_.end()) return;
+    ProgramUse& use = noted->use;
+    ++use.draws;
+    if (std::ranges::find(use.users, material_name) == use.users.end()) use.users.push_back(material_name);
+}
+
+std::vector<ProgramUse> Renderer::program_uses() const {
+    std::vector<ProgramUse> uses;
+    for (const NotedUse& noted : uses_) uses.push_back(noted.use);
+    return uses;
+}
+
+void Renderer::feed_material(const gl::Program& program, int material) {
+    for (const Adoption& adoption : adoptions_) {
+        if (adoption.program == program.name()) adoption.work->feed_material(*this, adoption.adopted, material);
+    }
+}
+
+void Renderer::add_defines(int surface, std::vector<std::string_view>& defines) const {
+    for (const EffectDecision& decision : plan_.effects) {
+        if (decision.insertions.empty()) continue;
+        const auto card = std::ranges::find(description_.effects, std::string_view(decision.effect), &EffectCard::name);
+        if (card != description_.effects.end() && (*card)->add_defines != nullptr)
+            (*card)->add_defines(*this, surface, defines);
+    }
+}
+
+const Material& Renderer::material(int index) const {
+    const auto at = static_cast<std::size_t>(index);
+    return changes_.materials.empty() ? scene_->materials[at] : changes_.materials[at];
+}
+
+void Renderer::change_materials() {
+    changes_ = {};
+    for (const EffectDecision& decision : plan_.effects) {
+        const auto card = std::ranges::find(description_.effects, std::string_view(decision.effect), &EffectCard::name);
+        if (!decision.in || card == description_.effects.end() || (*card)->change_materials == nullptr) continue;
+        if (changes_.materials.empty()) changes_.materials = scene_->materials;
+        (*card)->change_materials(*scene_, plan_, changes_);
+    }
 }
 
 void Renderer::use(const gl::Program& program) {

@@ -38,6 +38,15 @@ struct CensusRow {
     std::uint64_t negative = 0;  ///< values below 0 (reported, not a failure)
 };
 
+/// A linked program, and what it was linked for.
+struct ProgramUse {
+    std::string effect;             ///< whose card it belongs to
+    std::string defines;            ///< space separated; empty: none
+    std::string insertions;         ///< effects that add code to it, space separated
+    int draws = 0;                  ///< surfaces that are drawn with it; 0: it draws no surface
+    std::vector<std::string> users;  ///< names of their materials, each once
+};
+
 class RenderTargets;
 
 class Renderer {
@@ -77,6 +86,8 @@ public:
     [[nodiscard]] const FramePlan& plan() const { return plan_; }
     [[nodiscard]] const Scene& scene() const { return *scene_; }
     [[nodiscard]] const DrawMesh& mesh(int index) const { return meshes_[static_cast<std::size_t>(index)]; }
+    /// A material as it is drawn: the scene's, or with what an effect has written into it.
+    [[nodiscard]] const Material& material(int index) const;
     /// Box of a surface in this frame's pose, relative to its world_from_local [m].
     [[nodiscard]] const Box& box(int surface) const;
     /// A number that changes with the shape of a surface: with its joints and morph weights, not with its place.
@@ -99,6 +110,14 @@ public:
     /// The program of a card's variant at the plan's tier and arithmetic, with the insertions other effects make in it.
     gl::Program& program(const EffectCard& card, int variant, std::span<const std::string_view> defines);
     gl::ProgramCache& programs() { return programs_; }
+    /// A surface of this material is drawn with the program: for program_uses().
+    void note_use(const gl::Program& program, const std::string& material_name);
+    /// Every program that preparing has asked for, in that order, with the reason for each.
+    [[nodiscard]] std::vector<ProgramUse> program_uses() const;
+    /// What effects add to the defines of a surface's program: EffectCard::add_defines of all that are in.
+    void add_defines(int surface, std::vector<std::string_view>& defines) const;
+    /// The draws that follow with `program` show `material`: tells it to those who inserted code.
+    void feed_material(const gl::Program& program, int material);
     void add_notice(std::string sentence) { notices_.push_back(std::move(sentence)); }
     /// What preparing found worth saying: program cache folder not writable, lights left out, textures made smaller.
     [[nodiscard]] std::vector<std::string> notices() const;
@@ -121,8 +140,10 @@ public:
 
 private:
     void make_full_screen_triangle();
+    void change_materials();
     void make_works();
     EffectWork* work_of(const std::string& effect);
+    void note_program(std::string_view effect, const std::string& prefix, const gl::Program& program);
     void adopt_insertions(const std::string& prefix, gl::Program& program);
     void begin(const Pass& pass, std::uint32_t framebuffer);
     void finish_frame();
@@ -153,6 +174,12 @@ private:
         EffectWork* work;
         int adopted;
     };
+    struct NotedUse {
+        std::uint32_t program;
+        ProgramUse use;
+    };
+    std::vector<NotedUse> uses_;
+    MaterialChanges changes_;  ///< empty: every material is drawn as it is
     std::vector<Work> works_;  ///< one for each effect that draws or inserts
     std::vector<Adoption> adoptions_;
     const View* view_ = nullptr;  ///< of the frame being drawn

@@ -87,6 +87,14 @@ enum class MaterialModel : std::uint8_t {
 
 enum class AlphaMode : std::uint8_t { opaque, mask, blend };
 
+/// Where a material takes up water, if the scene is wet (engine/effects/wet_surface).
+enum class WaterMask : std::uint8_t {
+    none,          ///< stays dry
+    everywhere,    ///< all of it
+    vertex_color,  ///< as the alpha of Mesh::colors says (vertex_water() there); opaque materials only
+    texture,       ///< as the red of Material::water_texture says
+};
+
 /// A material as glTF 2.0 has it; mapped to albedo, specular and power by surface (engine/effects/surface).
 struct Material {
     std::string name;
@@ -114,6 +122,10 @@ struct Material {
     Texture specular_smoothness_texture;  ///< specular_glossiness only: RGB specular (sRGB), A smoothness
     UvMapping base_color_uv, metallic_roughness_uv, normal_uv, emissive_uv;
     UvMapping occlusion_uv, specular_uv, specular_color_uv, specular_smoothness_uv;
+    WaterMask water = WaterMask::none;
+    float deepest_puddle_m = 0.04f;  ///< depth of the hollow where the vertex alpha says 1 [m], > 0
+    Texture water_texture;           ///< R: share of the water that it takes up; G: height, 0 cracks, 1 stays above water
+    UvMapping water_uv;
 };
 
 /// One drawn thing: a mesh with a material at a place.
@@ -169,6 +181,20 @@ struct Bloom {
     float strength = 0.25f;  ///< share of the light above 1 that is spread, 0..1; ours
 };
 
+/// How wet what takes up water is, outside of puddles.
+struct Wetness {
+    float level = 1.0f;  ///< 0 dry .. 1 soaked
+    /// The level never changes: the plan may write it into textures once, and later changes of it do not show.
+    bool is_static = true;
+    std::optional<float> since_s;  ///< seconds since the rain stopped; none: it goes on, or nothing dries. Not static
+    float dry_s = 60.0f;           ///< all is dry this long after the rain [s], > 0
+};
+
+/// Water that stands in hollows.
+struct Puddles {
+    float level = 1.0f;  ///< 0 none .. 1 every hollow is full
+};
+
 /// Light from everywhere, prefiltered (content/environment makes it): radiance smoothed by cosine-power lobes for
 /// reflections, and spherical harmonics for the diffuse part. Linear, >= 0, world axes.
 struct EnvironmentMap {
@@ -201,6 +227,8 @@ struct Scene {
     glm::vec3 ambient{0.0f};                    ///< constant radiance from everywhere, linear; added to `environment`
     std::optional<EnvironmentMap> environment;  ///< none: nothing to reflect but `ambient`
     std::optional<Bloom> bloom;                 ///< none: as `Bloom{}` if something shines above 1 by itself
+    std::optional<Wetness> wetness;             ///< none: dry
+    std::optional<Puddles> puddles;             ///< none: no water stands
     std::optional<Sky> sky;                     ///< none: the background is `background`
     glm::vec3 background{0.12f, 0.13f, 0.15f};  ///< display value behind everything
     std::vector<std::string> notices;           ///< what the loader left out, one sentence each

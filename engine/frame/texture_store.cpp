@@ -55,8 +55,10 @@ void TextureStore::fit(const Scene& scene, std::vector<std::string>& notices) {
 
 Image TextureStore::fitted_image(const Scene& scene, const Texture& texture, TexelKind kind,
                                  std::vector<std::string>& notices) const {
-    const auto index = static_cast<std::size_t>(texture.image);
-    const Image& source = scene.images[index];
+    auto index = static_cast<std::size_t>(texture.image);
+    const bool is_new = index >= scene.images.size();
+    const Image& source = is_new ? more_images_[index - scene.images.size()] : scene.images[index];
+    if (is_new) index = static_cast<std::size_t>(instead_of_[index - scene.images.size()]);  // -1: past every image
     const bool needs_power_of_two =
         !caps_.npot_textures && (texture.mipmaps || texture.wrap_u != Wrap::clamp || texture.wrap_v != Wrap::clamp);
     int most = caps_.max_texture_size;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -72,6 +73,11 @@ public:
         : gl_(gl), caps_(caps), compression_(compression) {}
     /// Decides which levels of the scene's images to leave out where the device limits the bytes of all textures.
     void fit(const Scene& scene, std::vector<std::string>& notices);
+    /// Images beside the scene's, numbered after them: see MaterialChanges. They outlive the store.
+    void add_images(std::span<const Image> images, std::span<const int> instead_of) {
+        more_images_ = images;
+        instead_of_ = instead_of;
+    }
     std::uint32_t get(const Scene& scene, const Texture& texture, const TextureUse& use,
                       std::vector<std::string>& notices);
     /// packed_surface_map() of two, sampled as the first.
@@ -103,6 +109,8 @@ private:
     TextureCompression compression_;
     Compressed compressed_;
     std::vector<int> dropped_levels_;  ///< by image; empty: none
+    std::span<const Image> more_images_;
+    std::span<const int> instead_of_;
     std::vector<Entry> entries_;
     std::size_t bytes_ = 0;
 };

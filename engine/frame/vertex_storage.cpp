@@ -184,6 +184,7 @@ glm::dvec2 texels_of_set(const Scene& scene, const Material& m, int set) {
     widen(texels, scene, m.specular_texture, m.specular_uv, set);
     widen(texels, scene, m.specular_color_texture, m.specular_color_uv, set);
     widen(texels, scene, m.specular_smoothness_texture, m.specular_smoothness_uv, set);
+    widen(texels, scene, m.water_texture, m.water_uv, set);
     return texels;
 }
 

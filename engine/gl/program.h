@@ -37,6 +37,7 @@ struct Insertion {
     const char* point;  ///< name of the insertion point, e.g. "color" for //@insert color
     const char* file;   ///< file with the functions the code calls, e.g. "tone_map/tone_map.glsl"; may be nullptr
     const char* code;   ///< one or more statements, e.g. "color = tone_map(color);"
+    const char* only_with = nullptr;  ///< left out of programs without this define; nullptr: in all
 };
 
 /// All that decides a program's text.

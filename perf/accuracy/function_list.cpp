@@ -101,7 +101,8 @@ std::vector<FunctionEntry> sky_functions() {
 std::vector<FunctionEntry> function_list() {
     std::vector<FunctionEntry> list;
     const std::array parts{anti_alias_functions(), bloom_functions(),   environment_functions(), shadow_functions(),
-                           sky_functions(),        surface_functions(), tone_map_functions()};
+                           sky_functions(),        surface_functions(), tone_map_functions(),
+                           wet_surface_functions(), puddles_functions()};
     for (const EffectCard* card : all_effects()) {
         for (const std::vector<FunctionEntry>& part : parts) {
             for (const FunctionEntry& entry : part) {

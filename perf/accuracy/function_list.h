@@ -80,5 +80,7 @@ struct FunctionEntry {
 [[nodiscard]] std::vector<FunctionEntry> surface_functions();
 [[nodiscard]] std::vector<FunctionEntry> surface_material_functions();  ///< part of surface_functions()
 [[nodiscard]] std::vector<FunctionEntry> tone_map_functions();
+[[nodiscard]] std::vector<FunctionEntry> wet_surface_functions();
+[[nodiscard]] std::vector<FunctionEntry> puddles_functions();
 
 }  // namespace halfframe::accuracy

@@ -31,6 +31,8 @@ public:
 [[nodiscard]] std::unique_ptr<Command> make_effects_command(CLI::App& app);
 [[nodiscard]] std::unique_ptr<Command> make_scenes_command(CLI::App& app);
 [[nodiscard]] std::unique_ptr<Command> make_export_command(CLI::App& app);
+[[nodiscard]] std::unique_ptr<Command> make_bake_wet_command(CLI::App& app);
+[[nodiscard]] std::unique_ptr<Command> make_surface_at_command(CLI::App& app);
 [[nodiscard]] std::unique_ptr<Command> make_accuracy_command(CLI::App& app);
 [[nodiscard]] std::unique_ptr<Command> make_contact_sheet_command(CLI::App& app);
 [[nodiscard]] std::unique_ptr<Command> make_check_command(CLI::App& app);

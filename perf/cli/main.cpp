@@ -82,7 +82,8 @@ int run(int argument_count, char** arguments) {
     app.allow_extras();
     std::vector<std::unique_ptr<Command>> commands;
     for (const auto make : {make_render_command, make_report_command, make_plan_command, make_info_command,
-                            make_effects_command, make_scenes_command, make_export_command, make_accuracy_command,
+                            make_effects_command, make_scenes_command, make_export_command, make_bake_wet_command,
+                            make_surface_at_command, make_accuracy_command,
                             make_stability_command, make_contact_sheet_command, make_check_command, make_cost_command}) {
         commands.push_back(make(app));
         app.get_subcommand(commands.back()->name())->allow_extras();

@@ -38,6 +38,7 @@ public:
             ->type_name("FILE");
         command.add_flag("--ledger", ledger_,
                          "Print the GL calls of preparing and of one frame by pass; without the program cache");
+        command.add_flag("--programs", programs_, "Print every program that was linked, and what each is for");
         command.add_option("--html", html_, "Also write one self-contained HTML page")->type_name("FILE");
         command
             .add_option(
@@ -106,9 +107,9 @@ private:
         if (!output_.ends_with(".png")) {
             throw Error(Fault::usage, "--frames needs -o FILE.png, from which the pictures get their names");
         }
-        if (!trace_.empty() || !html_.empty() || ledger_ || drawing_.census) {
+        if (!trace_.empty() || !html_.empty() || ledger_ || programs_ || drawing_.census) {
             throw Error(Fault::usage,
-                        "--frames draws pictures alone: leave out --trace, --ledger, --html and --census, or choose "
+                        "--frames draws pictures alone: leave out --trace, --ledger, --programs, --html and --census, or choose "
                         "one moment with --time");
         }
         perf::expect_can_write(numbered(output_, 0));
@@ -160,6 +161,9 @@ private:
         if (drawn.result.report.census) {
             print("\n" + perf::census_text(*drawn.result.report.census));
         }
+        if (programs_) {
+            print("\n" + perf::programs_text(drawn.result.report));
+        }
         if (ledger_) {
             print("\n" + perf::ledger_text(drawn.result.report));
         }
@@ -177,6 +181,7 @@ private:
     std::string trace_;
     std::string html_;
     bool ledger_ = false;
+    bool programs_ = false;
     std::optional<int> frames_;
     double fps_ = 30.0;
 };

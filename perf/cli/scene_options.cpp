@@ -302,6 +302,8 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
             "--set", options.settings,
             "Change the scene; repeatable. exposure=N (above 0); ambient=R,G,B (linear light); sky.zenith=R,G,B, "
             "sky.horizon=R,G,B, sky.ground=R,G,B (display values 0 to 1); bloom.strength=N (0 to 1); "
+            "wet.level=N, puddles.level=N (0 to 1); wet.live=0|1 (1: not written into textures); wet.rain_ended_s=N, "
+            "wet.dry_s=N (all is dry so long after the rain); "
             "EFFECT.on=0|1 (in or out, whatever the scene calls for)")
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
@@ -351,6 +353,7 @@ OpenedScene open_with_options(const std::string& scene, const SceneOptions& opti
     const bool is_file = scene.ends_with(".gltf") || scene.ends_with(".glb");
     opened.label = is_file ? std::filesystem::path(scene).filename().string() : scene;
     opened.wishes = parse_wishes(options);
+    opened.wishes.fixed_view = sequence.frames <= 1;
     light(opened.scene, options.environment, cache_folder(options.cache), between);
     const Box box = posed_for(opened, options, sequence);
     const Camera camera = tightened(choose_camera(opened, options, size, box), box);

@@ -16,7 +16,8 @@ namespace halfframe::cli {
 namespace {
 
 std::vector<std::string> setting_keys() {
-    std::vector<std::string> keys{"exposure", "ambient", "sky.zenith", "sky.horizon", "sky.ground", "bloom.strength"};
+    std::vector<std::string> keys{"exposure", "ambient", "sky.zenith", "sky.horizon", "sky.ground", "bloom.strength",
+                                  "wet.level",  "wet.live",  "wet.rain_ended_s", "wet.dry_s", "puddles.level"};
     for (const EffectCard* card : all_effects()) {
         keys.push_back(std::string(card->name) + ".on");
     }
@@ -65,6 +66,38 @@ Setting parse_setting(const std::string& text) {
     return setting;
 }
 
+namespace {
+
+float parse_share(const Setting& setting) {
+    const float share = parse_number(setting.value, "--set " + setting.key);
+    if (share < 0.0f || share > 1.0f)
+        throw Error(Fault::usage, fmt::format("--set {}={}: it is 0 to 1", setting.key, setting.value));
+    return share;
+}
+
+void apply_wetness(const Setting& setting, Scene& scene) {
+    Wetness wetness = scene.wetness.value_or(Wetness{.level = 0.0f});
+    if (setting.key == "wet.level") {
+        wetness.level = parse_share(setting);
+    } else if (setting.key == "wet.live") {
+        if (setting.value != "0" && setting.value != "1")
+            throw Error(Fault::usage, fmt::format("--set {}={}: write 0 or 1", setting.key, setting.value));
+        wetness.is_static = setting.value == "0";
+    } else {
+        const float seconds = parse_number(setting.value, "--set " + setting.key);
+        const bool is_drying = setting.key == "wet.dry_s";
+        if (seconds < 0.0f || (is_drying && seconds < 0.1f)) {
+            throw Error(Fault::usage, fmt::format("--set {}={}: it must be at least {}", setting.key, setting.value,
+                                                  is_drying ? "0.1" : "0"));
+        }
+        if (is_drying) wetness.dry_s = seconds;
+        else wetness.since_s = seconds;
+    }
+    scene.wetness = wetness;
+}
+
+}  // namespace
+
 void apply(const Setting& setting, Scene& scene, View& view, Wishes& wishes) {
     if (setting.key == "exposure") {
         view.exposure = parse_number(setting.value, "--set exposure");
@@ -78,6 +111,10 @@ void apply(const Setting& setting, Scene& scene, View& view, Wishes& wishes) {
         if (strength < 0.0f || strength > 1.0f)
             throw Error(Fault::usage, fmt::format("--set bloom.strength={}: it is 0 to 1", setting.value));
         scene.bloom = Bloom{.strength = strength};
+    } else if (setting.key == "puddles.level") {
+        scene.puddles = Puddles{.level = parse_share(setting)};
+    } else if (setting.key.starts_with("wet.")) {
+        apply_wetness(setting, scene);
     } else if (setting.key.starts_with("sky.") && setting.key != "sky.on") {
         const glm::vec3 color = parse_color(setting);
         if (glm::any(glm::greaterThan(color, glm::vec3(1.0f)))) {

@@ -119,6 +119,7 @@ DrawResult draw_scene(gl::EntryPoints& gl, const gl::Caps& caps, const Scene& sc
     expect_no_gl_error(renderer, scene.name, "drawing");
     report.texture_bytes = renderer.texture_bytes();
     report.programs = renderer.programs().statistics();
+    report.program_uses = renderer.program_uses();
     append(report.notices, renderer.notices());
 
     if (request.measured_frames > 0 && !request.trace) {

@@ -60,6 +60,7 @@ struct FrameReport {
     CallReport prepare_calls;  ///< from an empty renderer to a prepared plan
     CallReport frame_calls;    ///< of one frame that was not timed
     gl::ProgramCache::Statistics programs;
+    std::vector<ProgramUse> program_uses;  ///< every program, and why it is there
     std::optional<Measurement> measurement;
     std::optional<std::vector<CensusRow>> census;
     std::optional<Modelled> modelled;

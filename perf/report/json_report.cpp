@@ -8,6 +8,18 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+Json program_uses_json(const std::vector<ProgramUse>& uses) {
+    Json all = Json::array();
+    for (const ProgramUse& use : uses) {
+        all.push_back({{"effect", use.effect},
+                       {"defines", use.defines},
+                       {"insertions", use.insertions},
+                       {"draws", use.draws},
+                       {"materials", use.users}});
+    }
+    return all;
+}
+
 Json optional_number(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
 Json summary_json(const std::optional<PassTimer::Summary>& summary) {
@@ -265,6 +277,7 @@ Json report_json(const FrameReport& report, const BudgetTable& table) {
             {"texture_bytes", report.texture_bytes},
             {"prepare_calls", calls_json(report.prepare_calls)},
             {"frame_calls", calls_json(report.frame_calls)},
+            {"program_uses", program_uses_json(report.program_uses)},
             {"programs",
              {{"compiled", report.programs.compiled},
               {"from_disk", report.programs.from_disk},

@@ -228,6 +228,25 @@ std::string budget_text(const BudgetTable& table, const FrameReport& report) {
     return text + sources.text();
 }
 
+std::string programs_text(const FrameReport& report) {
+    std::string text = fmt::format("{} programs of {}\n", report.program_uses.size(), report.scene);
+    for (const ProgramUse& use : report.program_uses) {
+        text += "  " + use.effect;
+        if (use.draws > 0) {
+            constexpr std::size_t kNamed = 4;
+            std::string names;
+            for (std::size_t i = 0; i < std::min(use.users.size(), kNamed); ++i)
+                names += (i == 0 ? "" : ", ") + use.users[i];
+            if (use.users.size() > kNamed) names += fmt::format(" and {} more", use.users.size() - kNamed);
+            text += fmt::format(": {} surface{} of {}", use.draws, use.draws == 1 ? "" : "s", names);
+        }
+        if (!use.insertions.empty()) text += fmt::format("\n      with code of {}", use.insertions);
+        if (!use.defines.empty()) text += fmt::format("\n      {}", use.defines);
+        text += "\n";
+    }
+    return text;
+}
+
 std::string ledger_text(const FrameReport& report) {
     TextTable passes({{"pass"},
                       {"calls", Align::right},

@@ -17,6 +17,9 @@ namespace halfframe::perf {
 /// then the sources. `measurement` absent: the measured columns hold "-".
 [[nodiscard]] std::string budget_text(const BudgetTable& table, const FrameReport& report);
 
+/// Every program that was linked and why: its effect, who inserts code, its materials and draws, and its defines.
+[[nodiscard]] std::string programs_text(const FrameReport& report);
+
 /// Calls, draws and bytes of one steady frame by pass, the set-up above it, and the calls by name.
 [[nodiscard]] std::string ledger_text(const FrameReport& report);
 

@@ -1,4 +1,6 @@
 // Shades a surface: material, direct light, constant ambient. Insertion points for material effects, in order:
+//   surface.water     wetness and puddle may be set; surface.water_normal: water_normal may be moved;
+//                     surface.water_material: what follows from them (all three only in programs with WATER)
 //   surface.material  albedo, specular, smoothness, power, n, v may be changed (all set, nothing lit yet)
 //   surface.ambient   diffuse_light and mirrored_light, what falls in from everywhere, may be changed
 //   surface.sun       sun_light may be dimmed
@@ -60,6 +62,8 @@ uniform FULL vec4 light_size[LIGHT_SLOTS];  // FULL: metres squared; x radius [m
 #endif
 #endif
 #endif
+
+#include "surface/surface_water.glsl"
 
 //@insert_functions
 
@@ -150,6 +154,15 @@ void main() {
 #endif
     FULL vec3 v = normalize(vertex_to_eye * parallel_eye.w + parallel_eye.xyz);
 
+#ifdef WATER
+    vec3 water = water_place();
+    vec2 wetness = vec2(0.0);  // 0..1: of what darkens, of what smooths
+    float puddle = 0.0;        // 0..1: share of open water
+    FULL vec3 water_normal = vec3(0.0, 1.0, 0.0);
+    //@insert surface.water
+    //@insert surface.water_normal
+    //@insert surface.water_material
+#endif
     //@insert surface.material
 
     float n_dot_v = saturate(dot(n, v));

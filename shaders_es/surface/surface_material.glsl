@@ -19,3 +19,10 @@ vec3 albedo_beside(vec3 diffuse, vec3 specular) {
 //@domain texel, strength: 0..1
 //@promise in 0..1
 float occlusion_share(float texel, float strength) { return 1.0 + strength * (texel - 1.0); }
+
+// What the alpha of an opaque surface's vertices says about water: x how open to the rain, y how deep a hollow. Codes 0 to
+// 127 of 255 lead from shelter to open ground, from there to 255 the hollow gets deeper. Both factors are a little large, so
+// that code 127 is open and level in half too.
+//@domain alpha: 0..1
+//@promise in 0..1; rising alpha; where alpha == 0.0: result == vec2(0.0); where alpha == 1.0: result == vec2(1.0)
+vec2 vertex_water(float alpha) { return clamp(vec2(alpha * 2.01, (alpha - 0.4982) * 1.9935), 0.0, 1.0); }

@@ -137,7 +137,7 @@ TEST(BuiltIn, UnknownNamesOfferTheNearest) {
         EXPECT_EQ(error.fault(), Fault::input);
         EXPECT_NE(std::string(error.what()).find("did you mean 'test_room'?"), std::string::npos) << error.what();
         EXPECT_NE(
-            std::string(error.what()).find("furnace, test_room, spheres, charts, lamps, street, memory_room, empty"),
+            std::string(error.what()).find("furnace, test_room, spheres, charts, lamps, wet_yard, street, memory_room, empty"),
             std::string::npos)
             << error.what();
     }

@@ -67,6 +67,62 @@ TEST(GltfExtras, WrongOnesAreNamed) {
     EXPECT_NE(count.find("must hold 3 numbers but holds 2"), std::string::npos) << count;
 }
 
+/// The triangle, its material with `keys`, and one texture.
+json with_water(const json& keys) {
+    json document = triangle_document();
+    document["materials"] = json::array({{{"name", "ground"}, {"extras", keys}}});
+    document["meshes"][0]["primitives"][0]["material"] = 0;
+    // A white pixel.
+    document["images"] = json::parse(R"([{"uri": "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAQAAAC1HAwCAAAAC0lEQVR42mP8/x8AAwMCAO+ip1sAAAAASUVORK5CYII="}])");
+    document["textures"] = json::parse(R"([{"source": 0}])");
+    return document;
+}
+
+TEST(GltfExtras, SayHowWetASceneIsAndWhatTakesUpWater) {
+    const TemporaryFolder folder;
+    json document = with_water({{"hf_water", "texture"}, {"hf_water_texture", 0}, {"hf_puddle_depth_m", 0.1}});
+    document["scenes"][0]["extras"] = {
+        {"hf_wetness", 0.4}, {"hf_wetness_live", true}, {"hf_rain_ended_s", 12}, {"hf_drying_s", 90}, {"hf_puddles", 0.7}};
+    const Scene scene = content::load_gltf(folder.write("wet.gltf", document.dump()));
+    ASSERT_TRUE(scene.wetness && scene.puddles);
+    EXPECT_EQ(scene.wetness->level, 0.4f);
+    EXPECT_FALSE(scene.wetness->is_static);
+    EXPECT_EQ(scene.wetness->since_s, 12.0f);
+    EXPECT_EQ(scene.wetness->dry_s, 90.0f);
+    EXPECT_EQ(scene.puddles->level, 0.7f);
+    const Material& material = scene.materials.at(static_cast<std::size_t>(scene.surfaces.at(0).material));
+    EXPECT_EQ(material.water, WaterMask::texture);
+    EXPECT_TRUE(material.water_texture);
+    EXPECT_EQ(material.deepest_puddle_m, 0.1f);
+    // And out again.
+    const Scene back = content::load_gltf(folder.write("back.glb", content::gltf_binary(scene)));
+    EXPECT_EQ(back.wetness->since_s, 12.0f);
+    EXPECT_EQ(back.puddles->level, 0.7f);
+    EXPECT_EQ(back.materials.at(0).water, WaterMask::texture);
+    EXPECT_TRUE(back.materials.at(0).water_texture);
+    EXPECT_EQ(back.materials.at(0).deepest_puddle_m, 0.1f);
+}
+
+TEST(GltfExtras, WrongWaterIsNamed) {
+    const TemporaryFolder folder;
+    const auto refusal = [&](const json& document) { return error_of(folder.write("wet.gltf", document.dump())); };
+    const auto expect_words = [](const std::string& error, const char* words) {
+        EXPECT_NE(error.find(words), std::string::npos) << error;
+    };
+    json too_wet = with_water(json::object());
+    too_wet["scenes"][0]["extras"] = {{"hf_wetness", 1.2}};
+    expect_words(refusal(too_wet), "/scenes/0/extras/hf_wetness: is 1.2 but must lie from 0 to 1");
+    too_wet["scenes"][0]["extras"] = {{"hf_puddles", -0.1}};
+    expect_words(refusal(too_wet), "/scenes/0/extras/hf_puddles: is -0.1 but must lie from 0 to 1");
+    expect_words(refusal(with_water({{"hf_water", "vertx"}})), "did you mean 'vertex'?");
+    expect_words(refusal(with_water({{"hf_water", "texture"}})), "/materials/0/extras/hf_water: the mask is in a texture");
+    expect_words(refusal(with_water({{"hf_water", "texture"}, {"hf_water_texture", 3}})),
+                 "/materials/0/extras/hf_water_texture: there is no texture 3");
+    json glass = with_water({{"hf_water", "vertex"}});
+    glass["materials"][0]["alphaMode"] = "BLEND";
+    expect_words(refusal(glass), "the alpha of the vertices is needed for coverage");
+}
+
 TEST(GltfExtras, TheSchemaIsThatOfTheTable) {
     std::ifstream file(std::string(HALFFRAME_SOURCE_DIR) + "/content/extras_schema.json");
     const std::string written{std::istreambuf_iterator<char>(file), {}};

@@ -53,12 +53,15 @@ std::vector<ArithmeticCase> arithmetic_cases(Tier tier) {
     return cases;
 }
 
-/// Those of `set` that go into the shaders of `variant`: points are named SHADERS.point.
-std::vector<gl::Insertion> insertions_into(const ShaderVariant& variant, const std::vector<gl::Insertion>& set) {
+/// Those of `set` that go into the shaders of `variant` made with `defines`: points are named SHADERS.point.
+std::vector<gl::Insertion> insertions_into(const ShaderVariant& variant, const std::vector<gl::Insertion>& set,
+                                           const Words& defines) {
     std::vector<gl::Insertion> result;
     const std::string prefix = insertion_prefix(variant);
     for (const gl::Insertion& insertion : set) {
-        if (std::string_view(insertion.point).starts_with(prefix)) result.push_back(insertion);
+        const bool wanted = insertion.only_with == nullptr ||
+                            std::ranges::find(defines, std::string_view(insertion.only_with)) != defines.end();
+        if (wanted && std::string_view(insertion.point).starts_with(prefix)) result.push_back(insertion);
     }
     return result;
 }
@@ -165,13 +168,16 @@ std::vector<NamedProgram> every_variant(Tier tier, std::span<const EffectCard* c
     std::vector<std::vector<gl::Insertion>> sets = every_insertion_set(tier, cards);
     sets.insert(sets.begin(), std::vector<gl::Insertion>{});
     std::vector<NamedProgram> programs;
+    std::set<std::string> known;  // sets differ by what only some defines let in
     for (const EffectCard* card : cards) {
         for (const std::vector<gl::Insertion>& set : sets) {
             for (const ShaderVariant& variant : card->tiers[static_cast<std::size_t>(tier)].shaders) {
-                const std::vector<gl::Insertion> insertions = insertions_into(variant, set);
-                if (!set.empty() && insertions.empty()) continue;
                 for (const Words& defines : define_sets(variant.defines)) {
+                    const std::vector<gl::Insertion> insertions = insertions_into(variant, set, defines);
+                    if (!set.empty() && insertions.empty()) continue;
                     for (const ArithmeticCase& arithmetic : arithmetic_cases(tier)) {
+                        const std::string of = fmt::format("{} {} ", variant.vertex, variant.fragment);
+                        if (!known.insert(of + sentence(*card, tier, arithmetic, defines, insertions)).second) continue;
                         gl::ProgramDescription description = describe_variant(
                             *card, variant, tier, arithmetic.arithmetic, arithmetic.fragment_highp, defines);
                         description.insertions = insertions;

@@ -54,7 +54,7 @@ int ShadowMap::variant_of(Renderer& renderer, const std::vector<std::string_view
 
 void ShadowMap::add_caster(Renderer& renderer, int body) {
     const Surface& surface = surface_of(renderer, bodies_[static_cast<std::size_t>(body)]);
-    const Material& material = renderer.scene().materials[static_cast<std::size_t>(surface.material)];
+    const Material& material = renderer.material(surface.material);
     Caster caster;
     caster.body = body;
     std::vector<std::string_view> defines;

@@ -25,7 +25,7 @@ struct Wish {
     std::optional<int> own_unit;
 };
 
-std::vector<Wish> wishes_of(const Material& material, const DrawMesh& mesh) {
+std::vector<Wish> wishes_of(const Material& material, const DrawMesh& mesh, bool water_map) {
     std::vector<Wish> wishes;
     const auto add = [&](const Wish& wish) {
         if (*wish.texture) wishes.push_back(wish);
@@ -50,6 +50,10 @@ std::vector<Wish> wishes_of(const Material& material, const DrawMesh& mesh) {
     add({"EMISSIVE_MAP", "EMISSIVE_UV_B", "emissive_map", "emissive", &material.emissive_texture, &material.emissive_uv,
          true, kEmissiveUnit});
     if (!lit) return wishes;
+    if (water_map) {
+        add({"WATER_MAP", "WATER_UV_B", "water_map", "water", &material.water_texture, &material.water_uv, false,
+             std::nullopt});
+    }
     if (material.occlusion_strength > 0.0f) {
         add({"OCCLUSION_MAP", "OCCLUSION_UV_B", "occlusion_map", "occlusion", &material.occlusion_texture,
              &material.occlusion_uv, false, std::nullopt});
@@ -122,9 +126,9 @@ void choose_mappings(const Material& material, const DrawMesh& mesh, std::vector
 }  // namespace
 
 SurfaceTextures surface_textures(const Material& material, const DrawMesh& mesh, std::span<const int> spare_units,
-                                 bool low) {
+                                 bool low, bool water_map) {
     SurfaceTextures result;
-    std::vector<Wish> wishes = wishes_of(material, mesh);
+    std::vector<Wish> wishes = wishes_of(material, mesh, water_map);
     choose_mappings(material, mesh, wishes, result);
     const bool packs = packs_maps(material, wishes);
     if (packs) {

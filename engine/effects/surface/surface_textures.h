@@ -34,7 +34,8 @@ struct SurfaceTextures {
 /// low tier always the texture of the specular factor. What a
 /// mesh without normals or an unlit material has no use for is not a loss and not said.
 [[nodiscard]] SurfaceTextures surface_textures(const Material& material, const DrawMesh& mesh,
-                                               std::span<const int> spare_units, bool low);
+                                               std::span<const int> spare_units, bool low,
+                                               bool water_map = false);
 
 /// The defines of a material's model, beside those of its textures: none for what glTF 2.0 has without extensions.
 [[nodiscard]] std::vector<std::string_view> model_defines(const Material& material);

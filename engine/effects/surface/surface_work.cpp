@@ -92,7 +92,7 @@ TextureUse use_of(const Material& material, const SurfaceTexture& texture, bool 
 }
 
 const Material& material_of(const Renderer& renderer, const Surface& surface) {
-    return renderer.scene().materials[static_cast<std::size_t>(surface.material)];
+    return renderer.material(surface.material);
 }
 
 }  // namespace
@@ -154,6 +154,7 @@ int SurfaceWork::variant_of(Renderer& renderer, const std::vector<std::string_vi
     gl::Program& program = renderer.program(card_, 0, defines);
     Variant variant;
     variant.program = &program;
+    variant.has_insertions = !program.description().insertions.empty();
     variant.defines = defines;
     variant.maps_roughness = std::ranges::any_of(defines, [](std::string_view define) {
         return define == "METALLIC_ROUGHNESS_MAP" || define == "PACKED_MAPS" || define == "SPECULAR_GLOSSINESS_MAP";
@@ -225,11 +226,16 @@ void SurfaceWork::add_draw(Renderer& renderer, int index) {
         return std::tuple(order_of(renderer.scene(), a), a) < std::tuple(order_of(renderer.scene(), b), b);
     });
     const bool low = renderer.tier_of(card_.name) == Tier::low;
+    std::vector<std::string_view> inserted;  // defines of what other effects insert
+    renderer.add_defines(index, inserted);
+    const bool water_map = std::erase(inserted, "WATER_MAP") > 0 && !low;
     const SurfaceTextures textures =
-        surface_textures(material, renderer.mesh(surface.mesh), spare_units(renderer), low);
+        surface_textures(material, renderer.mesh(surface.mesh), spare_units(renderer), low, water_map);
     for (const std::string& sentence : textures.left_out) renderer.add_notice(sentence);
-    draw.variant =
-        variant_of(renderer, defines_of(renderer, surface, possible, draw.chooses_lights, textures), textures.used);
+    std::vector<std::string_view> defines = defines_of(renderer, surface, possible, draw.chooses_lights, textures);
+    defines.insert(defines.end(), inserted.begin(), inserted.end());
+    draw.variant = variant_of(renderer, defines, textures.used);
+    renderer.note_use(*variants_[static_cast<std::size_t>(draw.variant)].program, material.name);
     if (draw.chooses_lights) {
         draw.light_set = static_cast<int>(light_sets_.size());
         lights.reserve(SURFACE_LIGHT_LIMIT + 1);
@@ -317,7 +323,7 @@ glm::vec4 SurfaceWork::base_color_of(const Renderer& renderer, const View& view,
 
 void SurfaceWork::set_material(Renderer& renderer, const View& view, const Variant& variant, const Draw& draw) {
     gl::EntryPoints& gl = renderer.gl();
-    const Material& material = renderer.scene().materials[static_cast<std::size_t>(draw.material)];
+    const Material& material = renderer.material(draw.material);
     set(gl, variant.base_color, base_color_of(renderer, view, material, variant.factors < 0));
     const glm::vec3 emissive = is_unlit(material) ? glm::vec3(0.0f) : material.emissive * view.exposure;
     set(gl, variant.emissive, glm::vec4(emissive, material.alpha_cutoff));
@@ -327,6 +333,7 @@ void SurfaceWork::set_material(Renderer& renderer, const View& view, const Varia
     if (variant.uv_b_mapping >= 0) gl.Uniform4fv(variant.uv_b_mapping, 2, &draw.uv_b_mapping[0].x);
     for (const TextureBinding& binding : draw.textures) renderer.bind_texture(binding.unit, binding.texture);
     renderer.set_cull(!draw.double_sided);
+    if (variant.has_insertions) renderer.feed_material(*variant.program, draw.material);
 }
 
 void SurfaceWork::set_matrices(Renderer& renderer, const View& view, Variant& variant, const Draw& draw,

@@ -38,6 +38,7 @@ private:
         gl::Program* program = nullptr;
         std::vector<std::string_view> defines;
         bool maps_roughness = false;
+        bool has_insertions = false;  ///< of effects that may want to know the material
         int uv_mapping = -1, uv_b_mapping = -1, specular_factors = -1;
         int clip_from_local = -1, eye_from_local = -1, normal_from_local = -1, toward_eye = -1;
         int uv_range = -1, uv1_range = -1, direction_scale = -1;

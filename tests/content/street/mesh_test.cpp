@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/effects/surface/surface.h"
+#include "engine/effects/wet_surface/wet_surface.h"
 #include "tests/content/street/made_scenes.h"
 
 namespace halfframe::tests {
@@ -211,25 +212,28 @@ TEST(StreetTextures, Repeat) {
 
 TEST(StreetRoad, KeepsWaterInTheAlphaOfItsVertices) {
     const Scene& scene = made("street");
-    std::size_t wet = 0, dry = 0, elsewhere = 0;
+    std::size_t deep = 0, level = 0, sheltered = 0, elsewhere = 0;
     for (const Surface& surface : scene.surfaces) {
         const Mesh& mesh = mesh_of(scene, surface);
         const Material& material = material_of(scene, surface);
-        const bool road = material.name == "asphalt" || material.name == "cobbles";
-        if (road) {
+        if (material.water == WaterMask::vertex_color) {
             EXPECT_EQ(material.alpha_mode, AlphaMode::opaque) << "alpha must not show";
             ASSERT_EQ(mesh.colors.size(), mesh.positions.size()) << mesh.name;
             for (const glm::vec4& color : mesh.colors) {
                 ASSERT_EQ(glm::vec3(color), glm::vec3(1.0f)) << "colour must not tint the road";
                 ASSERT_TRUE(color.a >= 0.0f && color.a <= 1.0f);
-                (color.a > 0.25f ? wet : dry) += color.a > 0.25f || color.a == 0.0f ? 1 : 0;
+                const VertexWater water = vertex_water(color.a);
+                deep += water.hollow * material.deepest_puddle_m > 0.01f;
+                level += water.open == 1.0f && water.hollow == 0.0f;
+                sheltered += water.open == 0.0f;
             }
         } else if (material.alpha_mode == AlphaMode::opaque && !mesh.colors.empty()) {
             ++elsewhere;
         }
     }
-    EXPECT_GT(wet, 300u);  // a centimetre of water and more
-    EXPECT_GT(dry, 3000u);
+    EXPECT_GT(deep, 300u);
+    EXPECT_GT(level, 3000u);
+    EXPECT_GT(sheltered, 200u) << "the arcade keeps the rain off";
     EXPECT_EQ(elsewhere, 0u);
     EXPECT_GT(content::street::road_height_m(0.0f), content::street::road_height_m(3.9f)) << "cambered";
 }

@@ -54,6 +54,8 @@ constexpr std::array kRows{
         [](const glm::vec3& value, const ExtrasTarget& target) {
             target.surroundings->size = 1 << std::lround(std::log2(value.x));
         }},
+    Row{ExtrasOwner::scene, "hf_environment_strength", ValueKind::number, 0.0, 1000.0, "factor on the surroundings",
+        [](const glm::vec3& value, const ExtrasTarget& target) { target.surroundings->strength = value.x; }},
     Row{ExtrasOwner::scene, "hf_ambient", ValueKind::color, 0.0, kMostLight, "light from everywhere, linear",
         [](const glm::vec3& value, const ExtrasTarget& target) { target.scene->ambient = value; }},
     Row{ExtrasOwner::scene, "hf_background", ValueKind::color, 0.0, 1.0, "display colour behind everything",

@@ -16,6 +16,7 @@ enum class ExtrasOwner { scene, node, mesh, camera, light, material };
 struct Surroundings {
     std::string name;
     int size = 128;
+    float strength = 1.0f;
 };
 
 /// What a row writes to; the one that fits its owner is set.

@@ -12,6 +12,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "content/environment/environment_strength.h"
 #include "content/gltf_extensions.h"
 #include "content/gltf_extras.h"
 #include "content/gltf_instances.h"
@@ -403,6 +404,7 @@ Scene load_checked(const std::filesystem::path& file, const LoadOptions& options
                      {.scene = &scene, .surroundings = &surroundings});
         if (!surroundings.name.empty()) {
             scene.environment = environment(surroundings.name, {.size = surroundings.size}).map;
+            if (surroundings.strength != 1.0f) multiply(*scene.environment, surroundings.strength);
         }
     }
     if (scene.surfaces.empty()) {

@@ -65,10 +65,11 @@ void keep_strongest(std::vector<Influence>& all, glm::u16vec4& joints, glm::vec4
     }
     // 8-bit weights of four joints are 4 * 0.5 / 255 from 1 at worst; more is the file's fault.
     if (std::abs(sum - 1.0f) > 0.01f) ++losses.unnormalized;
+    const bool sums_to_one = std::abs(kept - 1.0f) < 1e-6f;  // as near as float gets: no second rounding
     for (std::size_t i = 0; i < std::min<std::size_t>(4, all.size()); ++i) {
         if (all[i].weight <= 0.0f) break;
         joints[static_cast<int>(i)] = all[i].joint;
-        weights[static_cast<int>(i)] = all[i].weight / kept;
+        weights[static_cast<int>(i)] = sums_to_one ? all[i].weight : all[i].weight / kept;
     }
 }
 
@@ -175,6 +176,9 @@ Interpolation interpolation_of(const JsonPlace& sampler) {
                                   : Interpolation::linear;
 }
 
+/// Left alone where float gets no nearer to unit: no second rounding.
+glm::quat unit(const glm::quat& q) { return std::abs(glm::dot(q, q) - 1.0f) < 1e-6f ? q : glm::normalize(q); }
+
 /// Keys of a rotation must be quaternions: their direction is what counts, so 0 is none.
 void expect_rotations(const GltfModel& gltf, const std::string& place, const AnimationChannel& channel) {
     if (channel.value != AnimatedValue::rotation) return;
@@ -193,6 +197,7 @@ void normalise_keys(AnimationChannel& channel) {
     for (std::size_t at = 0; at + 3 < channel.values.size(); at += 4) {
         double squared = 0.0;
         for (std::size_t i = 0; i < 4; ++i) squared += double{channel.values[at + i]} * double{channel.values[at + i]};
+        if (std::abs(squared - 1.0) < 1e-6) continue;  // as near as float gets: no second rounding
         for (std::size_t i = 0; i < 4; ++i)
             channel.values[at + i] = static_cast<float>(double{channel.values[at + i]} / std::sqrt(squared));
     }
@@ -242,8 +247,8 @@ Node read_node(const GltfDocument& document, const tinygltf::Node& node, std::si
     result.translation = {number(node.translation, 0, 0), number(node.translation, 1, 0),
                           number(node.translation, 2, 0)};
     result.scale = {number(node.scale, 0, 1), number(node.scale, 1, 1), number(node.scale, 2, 1)};
-    result.rotation = glm::normalize(glm::quat(number(node.rotation, 3, 1), number(node.rotation, 0, 0),
-                                               number(node.rotation, 1, 0), number(node.rotation, 2, 0)));
+    result.rotation = unit(glm::quat(number(node.rotation, 3, 1), number(node.rotation, 0, 0),
+                                     number(node.rotation, 1, 0), number(node.rotation, 2, 0)));
     if (node.mesh < 0) return result;
     const JsonPlace root = document.root();
     const JsonPlace mesh = root.at("meshes").at(static_cast<std::size_t>(node.mesh));

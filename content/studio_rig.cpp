@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "content/environment/environment_strength.h"
+
 namespace halfframe::content {
 namespace {
 
@@ -49,10 +51,7 @@ bool add_studio_rig(Scene& scene, std::optional<EnvironmentMap> environment) {
     }
     // The studio's boxes are as bright as photographers like them; beside a sun and two points a third is enough.
     constexpr float kShare = 0.3f;
-    for (auto& level : environment->levels) {
-        for (glm::vec3& texel : level) texel *= kShare;
-    }
-    for (glm::vec3& term : environment->irradiance) term *= kShare;
+    multiply(*environment, kShare);
     scene.environment = std::move(environment);
     return true;
 }

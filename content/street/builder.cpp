@@ -1,13 +1,18 @@
 // Faces into cells, cells into meshes.
 #include "content/street/builder.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <utility>
 
 #include <fmt/format.h>
 #include <glm/gtc/constants.hpp>
 
 #include "content/built_in.h"
+#include "engine/effects/surface/surface.h"
 #include "engine/error.h"
+#include "shaders_es/surface/surface_limits.h"
 
 namespace halfframe::content::street {
 
@@ -19,6 +24,37 @@ constexpr float kCellAcross = 24.0f;
 constexpr float kCellAlong = 14.0f;
 constexpr float kUnlitAlong = 56.0f;
 constexpr float kGroundFloor = 4.6f;
+
+constexpr float kShortestCut = 3.0f;  // a mesh this long is not cut again
+
+/// The triangles whose middle lies below the mean of all middles on an axis, and the others. Corners stay what they are.
+std::pair<Mesh, Mesh> halves(const Mesh& mesh, int axis) {
+    std::pair<Mesh, Mesh> result;
+    double all = 0.0;
+    for (const std::uint32_t corner : mesh.indices) all += static_cast<double>(mesh.positions[corner][axis]);
+    const auto mean = static_cast<float>(all / static_cast<double>(mesh.indices.size()));
+    std::vector<std::uint32_t> in_low(mesh.positions.size(), UINT32_MAX), in_high = in_low;
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        float sum = 0.0f;
+        for (std::size_t k = 0; k < 3; ++k) sum += mesh.positions[mesh.indices[i + k]][axis];
+        const bool low = sum < 3.0f * mean;
+        Mesh& half = low ? result.first : result.second;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t corner = mesh.indices[i + k];
+            std::uint32_t& known = (low ? in_low : in_high)[corner];
+            if (known == UINT32_MAX) {
+                known = static_cast<std::uint32_t>(half.positions.size());
+                half.positions.push_back(mesh.positions[corner]);
+                half.normals.push_back(mesh.normals[corner]);
+                half.tangents.push_back(mesh.tangents[corner]);
+                half.uv.push_back(mesh.uv[corner]);
+                if (!mesh.colors.empty()) half.colors.push_back(mesh.colors[corner]);
+            }
+            half.indices.push_back(known);
+        }
+    }
+    return result;
+}
 
 /// The unit vector, or `otherwise` where there is no direction.
 glm::vec3 unit_or(const glm::vec3& v, const glm::vec3& otherwise) {
@@ -202,11 +238,39 @@ void Builder::strip(int material, std::span<const glm::vec3> lower, std::span<co
 void Builder::finish() {
     for (auto& [key, mesh] : cells_) {
         const auto& [material, x, y, z] = key;
-        const std::string name =
-            fmt::format("{} {} {} {}", scene_.materials[static_cast<std::size_t>(material)].name, x, y, z);
-        add_surface(scene_, name, add_mesh(scene_, std::move(mesh), name), material, glm::mat4(1.0f));
+        add_lit(fmt::format("{} {} {} {}", scene_.materials[static_cast<std::size_t>(material)].name, x, y, z),
+                std::move(mesh), material);
     }
     cells_.clear();
+}
+
+int Builder::lamps_left_out(const Mesh& mesh, int material) const {
+    int left_out = 0;
+    std::vector<int> lights;
+    if (scene_.materials[static_cast<std::size_t>(material)].model != MaterialModel::unlit)
+        lights_reaching(scene_, local_box(mesh), SURFACE_LIGHT_LIMIT, lights, left_out);
+    return left_out;
+}
+
+// Halves of halves, until no half is reached by more lamps than are drawn.
+void Builder::add_lit(const std::string& name, Mesh mesh, int material) {
+    const Box box = local_box(mesh);
+    const glm::vec3 size = box.high - box.low;
+    std::array<int, 3> axes{0, 1, 2};
+    std::ranges::sort(axes, [&](int a, int b) { return size[a] > size[b]; });
+    const int lost = lamps_left_out(mesh, material);
+    for (const int axis : axes) {
+        if (lost == 0 || size[axis] < kShortestCut) break;
+        auto [low, high] = halves(mesh, axis);
+        if (low.indices.empty() || high.indices.empty()) continue;
+        if (std::min(lamps_left_out(low, material), lamps_left_out(high, material)) >= lost) continue;  // gains nothing
+        add_lit(name, std::move(low), material);
+        add_lit(name, std::move(high), material);
+        return;
+    }
+    const int part = parts_[name]++;
+    const std::string own = part == 0 ? name : fmt::format("{} part {}", name, part + 1);
+    add_surface(scene_, own, add_mesh(scene_, std::move(mesh), own), material, glm::mat4(1.0f));
 }
 
 }  // namespace halfframe::content::street

@@ -67,7 +67,7 @@ public:
     void strip(int material, std::span<const glm::vec3> lower, std::span<const glm::vec3> upper,
                std::span<const glm::vec3> normals);
 
-    /// Makes meshes and surfaces of all that was collected.
+    /// Makes meshes and surfaces of all that was collected: one for a cell, more where many lamps meet.
     void finish();
 
 private:
@@ -79,6 +79,8 @@ private:
         glm::vec4 color;
     };
     using Key = std::tuple<int, int, int, int>;  ///< material, cells in x, y, z
+    void add_lit(const std::string& name, Mesh mesh, int material);
+    [[nodiscard]] int lamps_left_out(const Mesh& mesh, int material) const;
     Mesh& cell_of(int material, const glm::vec3& world);
     void add(Mesh& mesh, int material, const Vertex& here);
     void add_quad(int material, const std::array<Vertex, 4>& corners);
@@ -88,6 +90,7 @@ private:
     Scene& scene_;
     std::vector<Mapping> mappings_;
     std::map<Key, Mesh> cells_;
+    std::map<std::string, int> parts_;  ///< meshes made of a cell so far
     glm::mat4 world_from_here_{1.0f};
     glm::vec4 color_{1.0f};
 };

@@ -103,10 +103,10 @@ void add_walls_and_ground(Builder& builder, Materials& of, std::uint32_t seed) {
 
 void add_openings(Builder& builder, Materials& of, std::uint32_t seed) {
     Material window = textured(builder, "windows", window_textures(mixed(seed, 10)), 0.5f);
-    window.emissive = glm::vec3(4.2f);
+    window.emissive = glm::vec3(5.6f);
     of.window = builder.add_material(window, {.wall = true});
     Material shop = dielectric("shop windows", glm::vec3(0.02f), 0.12f);
-    shop.emissive = glm::vec3(4.6f);
+    shop.emissive = glm::vec3(5.4f);
     shop.emissive_texture.image = builder.add_image(shop_picture(mixed(seed, 11)));
     of.shop_window = builder.add_material(shop, {});
     Material glass = dielectric("glass", {0.05f, 0.07f, 0.09f}, 0.08f);
@@ -164,14 +164,15 @@ void add_lights_and_air(Builder& builder, Materials& of, std::uint32_t seed) {
     of.glow_purple = builder.add_material(shining("purple glow", {2.2f, 0.7f, 4.4f}), {.unlit = true});
     of.glow_cyan = builder.add_material(shining("cyan glow", {0.9f, 3.6f, 4.4f}), {.unlit = true});
     const int pictures = builder.add_image(hologram_picture(mixed(seed, 13)));
+    // Pure colours, and more of them: where display values are blended (at low), light past white leaves only grey.
     const auto hologram = [&](const char* name, const glm::vec3& radiance) {
         Material material = blended(name, radiance, 0.85f);
         material.base_color_texture.image = pictures;
         return builder.add_material(material, {});
     };
-    of.hologram_cyan = hologram("cyan hologram", {0.9f, 3.4f, 4.0f});
-    of.hologram_red = hologram("red hologram", {4.0f, 0.60f, 0.50f});
-    of.hologram_purple = hologram("purple hologram", {2.4f, 0.9f, 4.2f});
+    of.hologram_cyan = hologram("cyan hologram", {0.15f, 2.1f, 2.7f});
+    of.hologram_red = hologram("red hologram", {3.0f, 0.20f, 0.15f});
+    of.hologram_purple = hologram("purple hologram", {1.5f, 0.15f, 3.0f});
     of.haze = builder.add_material(blended("haze", {0.060f, 0.075f, 0.100f}, 1.0f), {.colors = true});
     of.warm_beam = builder.add_material(blended("warm beam", {0.85f, 0.56f, 0.30f}, 1.0f), {.colors = true});
     of.cool_beam = builder.add_material(blended("cool beam", {0.40f, 0.58f, 0.85f}, 1.0f), {.colors = true});

@@ -221,7 +221,7 @@ Image hologram_picture(std::uint32_t seed) {
                 const glm::vec2 at((static_cast<float>(x) + 0.5f) / kCell, (static_cast<float>(y) + 0.5f) / kCell);
                 const float light = hologram_line(picture, at, text, seed);
                 const float rows = y % 4 < 2 ? 1.0f : 0.72f;
-                const float glow = 0.10f * (1.0f - smooth_step(0.25f, 0.5f, glm::length(at - glm::vec2(0.5f))));
+                const float glow = 0.14f * (1.0f - smooth_step(0.25f, 0.5f, glm::length(at - glm::vec2(0.5f))));
                 set_texel(image, (picture % 2) * kCell + x, (picture / 2) * kCell + y, glm::vec3(255.0f),
                           std::min(1.0f, (light + glow) * rows));
             }

@@ -5,6 +5,7 @@
 
 #include "content/built_in.h"
 #include "content/content.h"
+#include "content/environment/environment_strength.h"
 #include "content/street/site.h"
 
 namespace halfframe::content {
@@ -28,10 +29,7 @@ void add_night(Scene& scene) {
     scene.background = scene.sky->zenith;
     scene.ambient = glm::vec3(0.018f, 0.023f, 0.031f);
     EnvironmentMap night = environment("night_sky", {.size = 32}).map;
-    for (auto& level : night.levels) {
-        for (glm::vec3& texel : level) texel *= kOpenSky;
-    }
-    for (glm::vec3& term : night.irradiance) term *= kOpenSky;
+    multiply(night, kOpenSky);
     scene.environment = std::move(night);
     scene.bloom = Bloom{0.40f};
 }

@@ -63,7 +63,7 @@ void add_vehicle(Site& site, int paint, int glow, bool lit) {
         builder.box(of.glow_red, {side * 0.55f - 0.20f, 0.72f, -2.26f}, {side * 0.55f + 0.20f, 0.77f, -2.16f});
         // Lift rails.
         builder.box(of.iron, {side * 0.62f - 0.16f, 0.16f, -1.7f}, {side * 0.62f + 0.16f, 0.30f, 1.6f});
-        builder.box(glow, {side * 0.62f - 0.07f, 0.145f, -1.5f}, {side * 0.62f + 0.07f, 0.16f, 1.4f});
+        builder.box(glow, {side * 0.62f - 0.07f, 0.115f, -1.5f}, {side * 0.62f + 0.07f, 0.16f, 1.4f});
         builder.box(of.steel, {side * 0.955f - 0.012f, 0.78f, -0.5f}, {side * 0.955f + 0.012f, 0.80f, -0.3f});
     }
     if (lit) add_lamp(site, "lift rails", {0.0f, 0.11f, 0.0f}, {0.10f, 0.30f, 0.42f}, 2.6f, 0.05f);

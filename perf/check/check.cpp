@@ -18,6 +18,7 @@ Report check_scene(const Scene& scene, const Request& request) {
     check_materials(scene, request, places, report);
     check_textures(scene, request, places, report);
     check_meshes(scene, request, places, report);
+    check_storage(scene, request, report);
     if (!request.file.empty()) check_file_normals(request, report);
     std::stable_sort(report.findings.begin(), report.findings.end(),
                      [](const Finding& a, const Finding& b) { return a.level > b.level; });

@@ -41,6 +41,60 @@ std::string material_table(const Report& report) {
     return table.text() + "(albedo and specular: sRGB codes of the luminance; each at 5, 50 and 95 % of the texels)\n";
 }
 
+std::string grouped(std::size_t count) {
+    std::string text = std::to_string(count);
+    for (std::size_t at = text.size(); at > 3;) text.insert(at -= 3, 1, ' ');
+    return text;
+}
+
+std::string storage_table(const StorageFigures& figures) {
+    using perf::Align;
+    perf::TextTable table({{"stored"}, {"bytes", Align::right}, {"after", Align::right}, {"worst error", Align::right},
+                           {"in"}});
+    table.add_row({"vertices", grouped(figures.vertex_bytes_before), grouped(figures.vertex_bytes_after), "", ""});
+    const auto add = [&](const char* what, const Worst& worst, const char* unit) {
+        if (!worst.where.empty()) table.add_row({what, "", "", fmt::format("{:.2g} {}", worst.error, unit), worst.where});
+    };
+    add("  positions", figures.positions_mm, "mm");
+    add("  normals", figures.normals_degrees, "degrees");
+    add("  tangents", figures.tangents_degrees, "degrees");
+    add("  coordinates", figures.coordinates_texels, "texels");
+    add("  colours", figures.colors_codes, "display codes");
+    if (figures.color_images > 0) {
+        table.add_row({"colour textures", grouped(figures.texture_bytes_before), grouped(figures.texture_bytes_after),
+                       "", ""});
+        add("  mean of an image", figures.texture_rms_codes, "display codes");
+        add("  one texel", figures.texture_worst_codes, "display codes");
+    }
+    std::string text = table.text() + "(vertices: 32-bit floats, then 16 and 8 bits; textures: 8 bits a channel, then "
+                                      "DXT where a device has it; mip levels included)\n";
+    if (figures.full_positions > 0) text += fmt::format("meshes that keep 32-bit positions: {}\n", figures.full_positions);
+    if (figures.smaller_images > 0)
+        text += fmt::format("images that this device takes only smaller: {}\n", figures.smaller_images);
+    return text;
+}
+
+Json json_of(const Worst& worst) { return {{"error", worst.error}, {"where", worst.where}}; }
+
+Json json_of(const StorageFigures& figures) {
+    return {{"vertices",
+             {{"bytes_before", figures.vertex_bytes_before},
+              {"bytes_after", figures.vertex_bytes_after},
+              {"meshes_with_32_bit_positions", figures.full_positions},
+              {"positions_mm", json_of(figures.positions_mm)},
+              {"normals_degrees", json_of(figures.normals_degrees)},
+              {"tangents_degrees", json_of(figures.tangents_degrees)},
+              {"coordinates_texels", json_of(figures.coordinates_texels)},
+              {"colors_codes", json_of(figures.colors_codes)}}},
+            {"color_textures",
+             {{"images", figures.color_images},
+              {"made_smaller", figures.smaller_images},
+              {"bytes_before", figures.texture_bytes_before},
+              {"bytes_after", figures.texture_bytes_after},
+              {"rms_codes", json_of(figures.texture_rms_codes)},
+              {"worst_codes", json_of(figures.texture_worst_codes)}}}};
+}
+
 /// File path as a URI reference: what RFC 3986 does not leave plain is percent-encoded.
 std::string uri_of(const std::string& path) {
     std::string uri;
@@ -78,6 +132,7 @@ Json rules_sarif() {
 
 std::string check_text(const Report& report) {
     std::string text = report.materials.empty() ? "" : material_table(report);
+    if (report.storage.vertex_bytes_before > 0) text += "\n" + storage_table(report.storage);
     for (const Finding& finding : report.findings) {
         const Rule& broken = rule(finding.rule);
         const std::string where = finding.place.empty() ? "" : finding.place + ", ";
@@ -138,6 +193,7 @@ Json check_json(const Report& report) {
             {"notes", report.count(Level::note)},
             {"materials", materials},
             {"meshes", meshes},
+            {"storage", json_of(report.storage)},
             {"findings", findings}};
 }
 

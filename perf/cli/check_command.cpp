@@ -29,7 +29,7 @@ public:
         CLI::App& command = *app.add_subcommand(
             "check",
             "Judges materials, textures and meshes of a scene by the artists' chart: albedo, specular, metal, "
-            "smoothness, sizes, normal maps, waste");
+            "smoothness, sizes, normal maps, waste; and says what storing it spares and loses");
         command.add_option("SCENE", scene_, "A .gltf or .glb file, or a built-in scene (halfframe scenes)")->required();
         command
             .add_option(
@@ -63,6 +63,7 @@ public:
         const gl::DeviceProfile device = content::device_profile(options_.device.device);
         request.device = device.name;
         request.largest_texture = device.max_texture_size;
+        request.most_texture_bytes = device.max_texture_bytes;
         Progress progress;
         progress.show("opening " + scene_);
         const Scene scene = content::open_scene(scene_);

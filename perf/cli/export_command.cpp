@@ -16,7 +16,7 @@ public:
     explicit ExportCommand(CLI::App& app) {
         CLI::App& command = *app.add_subcommand(
             "export",
-            "Writes a scene as one GLB file that loads back to the same frame, with what glTF has no word for "
+            "Writes a scene as one GLB file that loads back to the same frame, moving or at rest, with what glTF has no word for "
             "in extras");
         command.add_option("SCENE", scene_, "A .gltf or .glb file, or a built-in scene (halfframe scenes)")->required();
         command.add_option("-o,--output", output_, "The file to write; its name ends in .glb")

@@ -35,6 +35,40 @@ Report report_of(const std::filesystem::path& file) {
     return check_scene(content::load_gltf(file), {.file = file, .thresholds = thresholds()});
 }
 
+TEST(Storage, is_what_the_engine_stores_with_its_worst_error) {
+    Scene scene = content::open_scene("test_room");
+    Image noise{.name = "noise", .width = 64, .height = 64, .srgb = true, .rgba = {}};
+    for (std::uint32_t i = 0; i < 64 * 64 * 4; ++i)
+        noise.rgba.push_back(i % 4 == 3 ? 255 : static_cast<std::uint8_t>((i * 2654435761u) >> 24));
+    Material& material = scene.materials.at(static_cast<std::size_t>(scene.surfaces.at(0).material));
+    material.base_color_texture.image = static_cast<int>(scene.images.size());
+    scene.images.push_back(noise);
+    const StorageFigures figures = check_scene(scene, {.thresholds = thresholds()}).storage;
+    // Boxes of 6 x 4 m at most: half a step of 1/65535 along each of three axes is 0.046, 0.031 and 0.023 mm.
+    EXPECT_GT(figures.positions_mm.error, 0.001);
+    EXPECT_LT(figures.positions_mm.error, 0.06);
+    EXPECT_FALSE(figures.positions_mm.where.empty());
+    EXPECT_LT(figures.normals_degrees.error, 0.01);  // steps of 1/32767: 0.0036 degrees (engine/README.md)
+    EXPECT_LT(figures.vertex_bytes_after, figures.vertex_bytes_before * 7 / 10);
+    EXPECT_EQ(figures.full_positions, 0u);
+    EXPECT_GT(figures.texture_bytes_before, 64u * 64u * 4u);
+    EXPECT_LT(figures.texture_bytes_after, figures.texture_bytes_before / 3);
+    EXPECT_EQ(figures.texture_worst_codes.where, "noise");  // blocks of two colours cannot hold noise
+    EXPECT_GT(figures.texture_rms_codes.error, 20.0);
+
+    const StorageFigures small = check_scene(scene, {.thresholds = thresholds(), .largest_texture = 16}).storage;
+    EXPECT_EQ(small.smaller_images, small.color_images);
+    EXPECT_LT(small.texture_bytes_after, figures.texture_bytes_after / 4);
+
+    const Report report = check_scene(scene, {.thresholds = thresholds()});
+    const std::string text = check_text(report);
+    for (const char* words : {" mm ", " degrees ", " texels ", "display codes  noise", "vertices"})
+        EXPECT_NE(text.find(words), std::string::npos) << words << " is not in\n" << text;
+    const auto json = check_json(report);
+    EXPECT_EQ(json["storage"]["vertices"]["bytes_before"], report.storage.vertex_bytes_before);
+    EXPECT_EQ(json["storage"]["color_textures"]["worst_codes"]["where"], "noise");
+}
+
 TEST(Places, are_json_pointers_of_the_file) {
     const TemporaryFolder folder;
     const Report report = report_of(folder.write("dark.gltf", dark_document().dump()));

@@ -1,5 +1,6 @@
-// The short run of ./test, with any compiler: every seed, then a fixed number of mutations of them from a fixed seed.
-// Usage: gltf_mutations RUNS SEED DICTIONARY, or gltf_mutations --write FOLDER for the seeds as files.
+// With any compiler: every seed, then a fixed number of mutations of them from a fixed seed.
+// Usage: gltf_mutations RUNS SEED DICTIONARY, or gltf_mutations --write FOLDER [EMPTY_FOLDER...] for the seeds as files,
+// and folders for what a fuzzer finds.
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -102,7 +103,10 @@ private:
 }  // namespace
 
 int main(int argc, char** argv) {
-    if (argc == 3 && std::string(argv[1]) == "--write") return write_seeds(argv[2]);
+    if (argc >= 3 && std::string(argv[1]) == "--write") {
+        for (int i = 3; i < argc; ++i) std::filesystem::create_directories(argv[i]);
+        return write_seeds(argv[2]);
+    }
     if (argc != 4) return 2;
     const std::vector<Seed> seeds = gltf_seeds();
     const std::vector<std::string> words = words_of(argv[3]);

@@ -111,6 +111,46 @@ json beside() {
     return document;
 }
 
+/// A skin of two joints, two morph targets, and animations of every kind.
+json moving() {
+    json document = triangle_document();
+    const auto floats = [&](std::vector<float> values, const char* type, std::size_t count) {
+        std::string bytes;
+        append(bytes, values);
+        return add_accessor(document, add_view(document, bytes), 5126, type, count);
+    };
+    const auto joints = [&](std::vector<std::uint8_t> values) {
+        std::string bytes;
+        append(bytes, values);
+        return add_accessor(document, add_view(document, bytes), 5121, "VEC4", 3);
+    };
+    json& primitive = document["meshes"][0]["primitives"][0];
+    primitive["attributes"]["JOINTS_0"] = joints({0, 1, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0});
+    primitive["attributes"]["WEIGHTS_0"] = floats({0.5f, 0.5f, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, "VEC4", 3);
+    for (int i = 0; i < 2; ++i)
+        primitive["targets"].push_back({{"POSITION", floats({0, 0, 1, 0, 1, 0, 1, 0, 0}, "VEC3", 3)}});
+    document["meshes"][0]["weights"] = {0.25, 0.5};
+    std::vector<float> binds(32, 0.0f);
+    for (std::size_t i : {0, 5, 10, 15}) binds[i] = binds[16 + i] = 1.0f;
+    document["skins"] = json::array({{{"joints", {1, 2}}, {"inverseBindMatrices", floats(binds, "MAT4", 2)}}});
+    document["nodes"] = json::parse(R"([{"mesh": 0, "skin": 0, "weights": [0, 1]}, {"children": [2]},
+                                        {"translation": [0, 1, 0]}])");
+    document["scenes"] = json::parse(R"([{"nodes": [0, 1], "extras": {"hf_ambient": [0.5, 0.5, 0.5]}}])");
+    const std::size_t times = floats({0, 1}, "SCALAR", 2);
+    document["animations"] = json::array({json::object()});
+    json& animation = document["animations"][0];
+    const auto add = [&](const char* path, int node, const char* way, std::size_t output) {
+        animation["samplers"].push_back({{"input", times}, {"output", output}, {"interpolation", way}});
+        animation["channels"].push_back(
+            {{"sampler", animation["samplers"].size() - 1}, {"target", {{"node", node}, {"path", path}}}});
+    };
+    add("rotation", 2, "LINEAR", floats({0, 0, 0, 1, 0, 1, 0, 0}, "VEC4", 2));
+    add("scale", 1, "STEP", floats({1, 1, 1, 2, 2, 2}, "VEC3", 2));
+    add("translation", 1, "CUBICSPLINE", floats(std::vector<float>(18, 0.5f), "VEC3", 6));
+    add("weights", 0, "LINEAR", floats({0, 1, 1, 0}, "SCALAR", 4));
+    return document;
+}
+
 }  // namespace
 
 std::vector<Seed> gltf_seeds() {
@@ -120,6 +160,7 @@ std::vector<Seed> gltf_seeds() {
                                          {"placed", placed()},
                                          {"sparse", sparse()},
                                          {"compressed", compressed()},
+                                         {"moving", moving()},
                                          {"beside", beside()}}) {
         seeds.push_back({std::string(name) + ".gltf", document.dump()});
     }

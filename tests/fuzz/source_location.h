@@ -1,5 +1,5 @@
-// std::source_location for clang 14, which lacks the builtin that libstdc++ 12 makes it of. Included before everything by
-// the preset `fuzz`, and by nothing else.
+// std::source_location for clang 14, which lacks the builtin that libstdc++ 12 makes it of. Included before everything where
+// clang compiles for libFuzzer, and by nothing else.
 #pragma once
 
 #include <cstdint>

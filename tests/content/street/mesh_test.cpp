@@ -128,7 +128,9 @@ TEST(MadeScenes, FewSurfacesAreReachedByMoreLampsThanAreDrawn) {
         }
     }
     std::printf("%d of %zu surfaces; %d left out of %s\n", crowded, scene.surfaces.size(), most, worst.c_str());
-    EXPECT_LT(crowded, static_cast<int>(scene.surfaces.size() / 4));
+    // Of 131 before cells were cut where many lamps meet; the rest are long bars of two triangles each.
+    EXPECT_LT(crowded, static_cast<int>(scene.surfaces.size() / 50));
+    EXPECT_LE(most, 4);
 }
 
 TEST(StreetTextures, HaveOneDensityOnWallsAndRoad) {

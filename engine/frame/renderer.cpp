@@ -76,6 +76,9 @@ void Renderer::prepare(const Scene& scene, const FramePlan& plan) {
     if (moving_->empty()) moving_.reset();
     else if (const std::string sentence = moving_->notice(); !sentence.empty()) notices_.push_back(sentence);
     make_works();
+    textures_->add_images({}, {});  // all of them are on the device
+    changes_.images.clear();
+    changes_.images.shrink_to_fit();
     if (const std::uint32_t error = gl_.GetError(); error != GL_NO_ERROR) {
         throw Error(Fault::context,
                     fmt::format("preparing {} left {} on {}; the scene may be too large for this device", plan.scene,

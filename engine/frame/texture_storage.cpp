@@ -197,9 +197,10 @@ TextureUse base_color_use(const Material& material, bool decoded) {
 
 std::vector<int> levels_to_drop(const Scene& scene, std::size_t limit_bytes) {
     std::vector<std::size_t> bytes(scene.images.size(), 0);
+    const bool has_water = scene.wetness || scene.puddles;  // a dry scene shows no water texture
     for (const Material& m : scene.materials) {
         for (const Texture& texture :
-             {m.base_color_texture, m.metallic_roughness_texture, m.normal_texture, m.emissive_texture,
+             {has_water ? m.water_texture : Texture{}, m.base_color_texture, m.metallic_roughness_texture, m.normal_texture, m.emissive_texture,
               m.occlusion_texture, m.specular_texture, m.specular_color_texture, m.specular_smoothness_texture}) {
             if (!texture) continue;
             const Image& image = scene.images[static_cast<std::size_t>(texture.image)];

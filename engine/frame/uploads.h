@@ -73,7 +73,8 @@ public:
         : gl_(gl), caps_(caps), compression_(compression) {}
     /// Decides which levels of the scene's images to leave out where the device limits the bytes of all textures.
     void fit(const Scene& scene, std::vector<std::string>& notices);
-    /// Images beside the scene's, numbered after them: see MaterialChanges. They outlive the store.
+    /// Images beside the scene's, numbered after them: see MaterialChanges. They live until the last
+    /// get().
     void add_images(std::span<const Image> images, std::span<const int> instead_of) {
         more_images_ = images;
         instead_of_ = instead_of;

@@ -34,6 +34,7 @@ std::vector<Use> uses_of(const Scene& scene) {
             {"normal", &material.normal_texture, &material.normal_uv, index},
             {"emissive", &material.emissive_texture, &material.emissive_uv, index},
             {"occlusion", &material.occlusion_texture, &material.occlusion_uv, index},
+            {"water", &material.water_texture, &material.water_uv, index},
             {"specular", &material.specular_texture, &material.specular_uv, index},
             {"specular colour", &material.specular_color_texture, &material.specular_color_uv, index},
             {"specular-glossiness", &material.specular_smoothness_texture, &material.specular_smoothness_uv, index}};

@@ -26,13 +26,13 @@ Words words_of(std::string_view text) {
     return words;
 }
 
-/// None, each alone, all, and all but each. All but each matters: one define may take away what the others add.
-std::vector<Words> define_sets(std::string_view defines) {
+/// None, each alone, all, and (unless `few`) all but each: one define may take away what the others add.
+std::vector<Words> define_sets(std::string_view defines, bool few) {
     const Words all = words_of(defines);
     std::vector<Words> sets = {{}};
     for (const std::string_view word : all) sets.push_back({word});
     if (all.size() > 1) sets.push_back(all);
-    for (std::size_t left_out = 0; all.size() > 2 && left_out < all.size(); ++left_out) {
+    for (std::size_t left_out = 0; !few && all.size() > 2 && left_out < all.size(); ++left_out) {
         Words less = all;
         less.erase(less.begin() + static_cast<std::ptrdiff_t>(left_out));
         sets.push_back(less);
@@ -172,7 +172,11 @@ std::vector<NamedProgram> every_variant(Tier tier, std::span<const EffectCard* c
     for (const EffectCard* card : cards) {
         for (const std::vector<gl::Insertion>& set : sets) {
             for (const ShaderVariant& variant : card->tiers[static_cast<std::size_t>(tier)].shaders) {
-                for (const Words& defines : define_sets(variant.defines)) {
+                // An effect that some surfaces call for is tried with everything else below; alone it needs only its own.
+                const bool few = !set.empty() && std::ranges::all_of(set, [](const gl::Insertion& insertion) {
+                    return insertion.only_with != nullptr;
+                });
+                for (const Words& defines : define_sets(variant.defines, few)) {
                     const std::vector<gl::Insertion> insertions = insertions_into(variant, set, defines);
                     if (!set.empty() && insertions.empty()) continue;
                     for (const ArithmeticCase& arithmetic : arithmetic_cases(tier)) {

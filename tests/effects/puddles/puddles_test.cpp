@@ -13,6 +13,7 @@
 #include "engine/effects/wet_surface/wet_surface.h"
 #include "perf/measure/planted_effect.h"
 #include "tests/effects/lit_square.h"
+#include "tests/frame/counted_new.h"
 
 namespace halfframe::tests {
 namespace {
@@ -228,6 +229,18 @@ TEST(GroundQuery, KnowsDryWetAndPuddle) {
     EXPECT_EQ(at(1.0f)->material, 0);
     scene.materials[0].water = WaterMask::none;
     EXPECT_EQ(at(1.0f)->footing, Footing::dry);
+}
+
+TEST(GroundQuery, AllocatesNothing) {
+    if (!heap_is_counted()) GTEST_SKIP() << "AddressSanitizer owns operator new";
+    const Scene scene = content::open_scene("wet_yard");
+    const GroundQuery query(scene);
+    ASSERT_GT(query.triangles(), 1000u);
+    int found = 0;
+    const std::uint64_t before = heap_allocations();
+    for (float x = -4.9f; x < 5.0f; x += 0.1f) found += query.surface_at({x, 2.0f, 0.3f}).has_value();
+    EXPECT_EQ(heap_allocations(), before);
+    EXPECT_GT(found, 90);
 }
 
 TEST(GroundQuery, FindsTheNearestBelowAndTheUpperOfTwo) {

@@ -72,7 +72,10 @@ bool load_bytes(std::string_view bytes) {
     const bool binary = bytes.starts_with("glTF");
     const char* name = binary ? "model.glb" : "model.gltf";
     std::filesystem::remove(folder().path() / name);  // ext4 flushes a file that is cut to nothing and written again
-    const std::filesystem::path file = folder().write(name, std::string(bytes));
+    return load_file(folder().write(name, std::string(bytes)));
+}
+
+bool load_file(const std::filesystem::path& file) {
     try {
         check_scene(content::load_gltf(file));
         return true;

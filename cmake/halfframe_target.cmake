@@ -5,6 +5,9 @@ set(HALFFRAME_FLAGS -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wconver
     -Wno-missing-field-initializers  # designated initialisers leave the defaults out on purpose
     -Wno-restrict)                   # GCC 12 sees overlaps in std::string that are not there (GCC bug 105651)
 
+# For what asks and judges but does not compute (tests, subcommands): a third less to compile than with -O3.
+set(HALFFRAME_LIGHT_FLAGS $<$<CONFIG:Release>:-O1>)
+
 # halfframe_library(ROOM SOURCES ... PUBLIC ... PRIVATE ...): a static library halfframe_ROOM, alias halfframe::ROOM.
 function(halfframe_library room)
   cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})

@@ -116,9 +116,9 @@ std::vector<FunctionEntry> environment_functions() {
         return reference::low_reflection(in(0, s), in(1, s), in(2, s), in(3));
     };
     mixed.tier = Tier::low;
-    mixed.half = {0.8,
+    mixed.half = {0.2,
                   "the weight is a rounded difference, 2^-11, of two colours up to 2 apart: 1e-3 of light in the dark"};
-    mixed.flushed = {0.8, "as half"};
+    mixed.flushed = {0.2, "as half"};
     return {diffuse, level, unpacked, mixed};
 }
 

@@ -52,7 +52,7 @@ std::vector<float> draw_function(gl::EntryPoints& gl, const gl::Caps& caps, cons
            "a drawn function has inputs for its parameters, at most the 16 that ES 3.0 has samplers for");
     LaneCanvas canvas(gl, caps, lanes_of(inputs));
     const std::string main = main_of(function);
-    std::vector<gl::ShaderFile> files(gl::shader_files().begin(), gl::shader_files().end());
+    std::vector<gl::ShaderFile> files(function.available.begin(), function.available.end());
     files.push_back({"<functions>", function.more_text});
     files.push_back({"<main>", main});
     gl::ProgramCache programs(gl, caps, {}, files);

@@ -1,6 +1,7 @@
 // Runs a plain shader function over thousands of inputs on a real context.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@ struct DrawnFunction {
     std::string function;                 ///< its name in the text; what follows a '(' is left out
     std::vector<std::string> files = {};  ///< relative to shaders_es, in the order of inclusion
     std::string more_text = {};           ///< functions behind the files
+    std::span<const gl::ShaderFile> available = gl::shader_files();  ///< what there is to include
     gl::Arithmetic arithmetic = gl::Arithmetic::half;
     std::vector<gl::Define> defines = {};
     std::vector<DrawnParameter> parameters = {};

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -19,6 +20,7 @@
 #include "perf/cli/spelling.h"
 #include "perf/cli/terminal.h"
 #include "perf/report/atomic_file.h"
+#include "perf/report/picture_file.h"
 #include "perf/stability/argument_census.h"
 #include "perf/stability/kept_results.h"
 #include "perf/stability/ledger.h"
@@ -30,6 +32,12 @@ namespace {
 using stability::Declaration;
 
 std::string folder_of(const Declaration& function) { return function.file.substr(0, function.file.find('/')); }
+
+void make_folder(const std::string& folder) {
+    std::error_code fault;
+    std::filesystem::create_directories(folder, fault);
+    if (fault) throw Error(Fault::environment, fmt::format("{} cannot be made: {}", folder, fault.message()));
+}
 
 std::string read_text(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
@@ -47,7 +55,7 @@ public:
             "Tries shader functions with every half, every combination of hard cases and a search, in five precisions "
             "and on the context here, and holds them to what is declared beside each");
         command.add_option("WHAT", wanted_,
-                           "Effects, functions, or one .glsl file of your own; without one, all of shaders_es and the "
+                           "Effects, functions, or one .glsl, .frag or .vert file of your own; without one, all of shaders_es and the "
                            "exhibit of listings that break");
         command.add_option("--function", function_, "Of your own file: the function to try; without it, all of them")
             ->type_name("NAME");
@@ -70,6 +78,11 @@ public:
         command.add_flag("--json", json_, "Standard output is one JSON value");
         command.add_option("--html", html_, "Also write a page that stands alone")->type_name("FILE");
         command
+            .add_option("--pictures", pictures_,
+                        "Also write the exhibit's pictures: each listing as printed, the form that holds, and where "
+                        "they differ")
+            ->type_name("DIR");
+        command
             .add_option("--ledger", ledger_, "Compare the worst inputs with this ledger; differences are exit code 1")
             ->type_name("FILE");
         command.add_option("--write-ledger", write_ledger_, "Write the ledger of the worst inputs")->type_name("FILE");
@@ -89,6 +102,7 @@ public:
         open(device, drawing, report);
         search_all(drawing ? &*drawing : nullptr, report);
         std::vector<std::string> changes = ledger_changes(report);
+        if (!pictures_.empty()) write_pictures(report);
         if (!html_.empty()) perf::write_file(html_, stability::stability_page(report));
         if (json_) {
             print_json(stability::stability_json(report));
@@ -100,7 +114,20 @@ public:
     }
 
 private:
-    [[nodiscard]] bool own_file() const { return wanted_.size() == 1 && wanted_[0].ends_with(".glsl"); }
+    [[nodiscard]] bool own_file() const {
+        return wanted_.size() == 1 && (wanted_[0].ends_with(".glsl") || wanted_[0].ends_with(".frag") ||
+                                       wanted_[0].ends_with(".vert") || std::filesystem::is_regular_file(wanted_[0]));
+    }
+
+    /// What is wrong with a user's own text is no check that failed.
+    [[nodiscard]] std::unique_ptr<const stability::Subject> subject_of(const Declaration& function,
+                                                                       const std::string& variant) const {
+        try {
+            return std::make_unique<const stability::Subject>(function, variant, files_);
+        } catch (const Error& error) {
+            throw Error(own_file() ? Fault::input : error.fault(), error.what());
+        }
+    }
 
     int show_arguments() const {
         GraphicsDevice device(device_);
@@ -123,7 +150,7 @@ private:
     }
 
     void refuse_contradictions() const {
-        if (arguments_ && (!wanted_.empty() || full_ || json_ || !(html_ + ledger_ + write_ledger_).empty()))
+        if (arguments_ && (!wanted_.empty() || full_ || json_ || !(html_ + pictures_ + ledger_ + write_ledger_).empty()))
             throw Error(Fault::usage,
                         "--arguments draws scenes and searches nothing: it goes with --context and --device only");
         if (!own_file() && !(function_.empty() && domain_.empty()))
@@ -134,6 +161,9 @@ private:
             throw Error(Fault::usage,
                         "the ledger holds what the fast search finds in all of shaders_es; leave out "
                         "--full and the names");
+        if (!pictures_.empty() && !wanted_.empty())
+            throw Error(Fault::usage, "--pictures are of the exhibit, which is measured where nothing is named");
+        if (!pictures_.empty()) make_folder(pictures_);
         for (const std::string& path : {html_, write_ledger_}) {
             if (!path.empty()) perf::expect_can_write(path);
         }
@@ -167,7 +197,11 @@ private:
         if (function_.empty()) return functions;
         std::erase_if(functions, [&](const Declaration& one) { return one.name != function_; });
         if (functions.empty()) throw Error(Fault::usage, unknown("function", function_, names));
-        if (!domain_.empty()) stability::declare_domain(functions[0], domain_);
+        try {
+            if (!domain_.empty()) stability::declare_domain(functions[0], domain_);
+        } catch (const Error& error) {
+            throw Error(Fault::usage, std::string("--domain: ") + error.what());
+        }
         functions[0].not_run.clear();
         return functions;
     }
@@ -214,7 +248,8 @@ private:
         stability::KeptResults kept(folder.empty() ? folder : folder / "stability", report.driver);
         for (std::size_t i = 0; i < chosen_.size(); ++i) {
             for (const std::string& variant : chosen_[i].variants) {
-                const stability::Subject subject(chosen_[i], variant, files_);
+                const std::unique_ptr<const stability::Subject> made = subject_of(chosen_[i], variant);
+                const stability::Subject& subject = *made;
                 if (const auto earlier = kept.find(subject, effort)) {
                     report.functions.push_back(*earlier);
                     ++report.from_earlier_run;
@@ -238,6 +273,20 @@ private:
         }
     }
 
+    /// The exhibit's pictures as files.
+    void write_pictures(const stability::StabilityReport& report) const {
+        for (const stability::ExhibitResult& one : report.exhibit) {
+            const std::string name = std::filesystem::path(one.entry.file).stem().string();
+            const std::filesystem::path folder(pictures_);
+            for (const auto& [picture, form] : {std::pair{&one.picture_printed, "as_printed"},
+                                                {&one.picture_mended, "mended"}, {&one.picture_difference, "difference"}}) {
+                const std::vector<std::uint8_t> bytes = perf::png_bytes(*picture);
+                perf::write_file((folder / fmt::format("{}_{}.png", name, form)).string(),
+                                 std::string(bytes.begin(), bytes.end()));
+            }
+        }
+    }
+
     std::vector<std::string> ledger_changes(const stability::StabilityReport& report) const {
         const std::vector<stability::LedgerRow> rows = stability::ledger_rows(report.functions);
         if (!write_ledger_.empty()) perf::write_file(write_ledger_, stability::ledger_text(rows));
@@ -246,7 +295,7 @@ private:
     }
 
     std::vector<std::string> wanted_;
-    std::string function_, domain_, html_, ledger_, write_ledger_;
+    std::string function_, domain_, html_, pictures_, ledger_, write_ledger_;
     std::string cache_;
     bool full_ = false;
     bool arguments_ = false;

@@ -85,6 +85,20 @@ constexpr std::array kRecordings{
     Recording{"cone_falloff", "cos_scale",
               HALFFRAME_RECORD("", "", HALFFRAME_SEE_SPOT("light_color[i].w + 1e-9 * l.x"))},
     Recording{"area_power", "ratio", HALFFRAME_RECORD("", "", HALFFRAME_SEE("ratio"))},
+    // ENVIRONMENT_RANGE stands where environment's functions do; as above, a billionth of a direction goes with uniforms.
+    Recording{"reflection_level", "smoothness",
+              HALFFRAME_RECORD("\n#ifdef ENVIRONMENT_RANGE\n" HALFFRAME_SEE("smoothness") "\n#endif\n", "", "")},
+    Recording{"reflection_level", "roughest",
+              HALFFRAME_RECORD("\n#ifdef ENVIRONMENT_RANGE\n" HALFFRAME_SEE("reflection_scale.y + 1e-9 * n.x") "\n#endif\n",
+                               "", "")},
+    Recording{"unpacked_rgbm", "root_range",
+              HALFFRAME_RECORD("\n#ifdef ENVIRONMENT_RANGE\n" HALFFRAME_SEE("reflection_scale.x + 1e-9 * n.x") "\n#endif\n",
+                               "", "")},
+    // All nine terms, which have one domain; where fragments add them up themselves.
+    Recording{"irradiance", "c0",
+              HALFFRAME_RECORD("\n#if defined(ENVIRONMENT_RANGE) && !defined(IRRADIANCE_BY_VERTEX)\n"
+                               "for (int k = 0; k < 9; k++) " HALFFRAME_SEE_ALL("irradiance_terms[k].rgb + 1e-9 * n") "\n#endif\n",
+                               "", "")},
     // What is stored is what these are called with.
     Recording{"tone_map", "light", "color = max(color, vec3(0.0));"},
 };
@@ -159,10 +173,8 @@ FloatPicture drawn(Renderer& renderer, const gl::Caps& caps, std::span<const Eff
 }  // namespace
 
 const char* unrecorded_arguments() {
-    return "not recorded: what the vertex stage computes (shadow_lift, irradiance by vertex), the passes over the "
-           "whole "
-           "picture save what they read (bloom, sky, anti_alias: display values and texels by construction), and the "
-           "environment's uniforms (root_range, c0 to c8)";
+    return "not recorded: what the vertex stage computes (shadow_lift, irradiance by vertex), and the passes over the "
+           "whole picture save what they read (bloom, sky, anti_alias: display values and texels by construction)";
 }
 
 std::vector<SeenArgument> see_arguments(gl::EntryPoints& gl, const gl::Caps& caps,

@@ -16,7 +16,7 @@ constexpr double kMinimumEnd = 0x1p14 - 0x1p3;
 /// Where a lane's component may lie once it has been rounded, at most: on the side of `direction`, which also says how
 /// many half steps.
 double shifted(double x, double direction, const DeclaredParameter& parameter, Model model) {
-    if (!std::isfinite(x)) return x;
+    if (!std::isfinite(x) || parameter.whole) return x;
     double shift = 0.5 * step_at(x, format_of(model), parameter.full);
     // What is flushed loses all of itself, not half a step.
     if (!parameter.full && format_of(model) == Format::flushed && std::fabs(x) < kSmallestNormal) shift *= 2.0;
@@ -63,7 +63,8 @@ Format format_of(Model model) {
 
 double step_at(double x, Format format, bool full) {
     const double size = std::fabs(x);
-    if (full) return size < 0x1p-126 ? 0x1p-126 : std::ldexp(1.0, std::ilogb(size) - 23);  // subnormals may be flushed
+    // Whatever is below 2^-126 on the way may be flushed, so no step counts as less.
+    if (full) return size < 0x1p-103 ? 0x1p-126 : std::ldexp(1.0, std::ilogb(size) - 23);
     if (size < kSmallestNormal) return format == Format::flushed ? kSmallestNormal : 0x1p-24;
     return std::ldexp(1.0, std::ilogb(size) - 10);
 }

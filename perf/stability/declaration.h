@@ -26,12 +26,20 @@ struct Domain {
 
 struct DeclaredParameter {
     std::string name;
-    std::string text;       ///< as in the signature: "FULL vec3 n"
-    std::string type;       ///< "vec3"
-    int components = 0;     ///< 1..4; 0: no float or vector
-    bool full = false;      ///< FULL or highp
-    bool handed_in = true;  ///< false: out or inout
+    std::string text;          ///< as in the signature: "FULL vec3 n"
+    std::string type;          ///< "vec3", without the size of an array
+    int components = 0;        ///< scalars of all of it; 0: a type that nothing can be given for
+    int piece = 0;             ///< components of each number or vector that it is made of, 1..4: a column, an element
+    int elements = 0;          ///< of an array; 0: it is none
+    bool full = false;         ///< FULL or highp
+    bool half = false;         ///< HALF, mediump or lowp: said, not left to the stage
+    bool whole = false;        ///< int, uint, bool and vectors of them: no precision is lost, and no half is between
+    bool handed_in = true;     ///< false: out
+    bool handed_back = false;  ///< out or inout
+    bool outside = false;      ///< no parameter: a uniform, a varying, an attribute or a texture that is read
     Domain domain;
+    [[nodiscard]] int pieces() const { return piece == 0 ? 0 : components / piece; }
+    [[nodiscard]] bool is_sampler() const { return type.find("ampler") != std::string::npos; }
 };
 
 struct Promise {
@@ -64,9 +72,12 @@ struct Declaration {
     int line = 0;      ///< of the signature
     std::string name;
     std::string returned_type;
-    int returned = 0;  ///< components; 0: no float or vector
-    bool returns_full = false;
-    std::vector<DeclaredParameter> parameters;
+    int returned = 0;           ///< components of all that comes back; 0: nothing that can be judged
+    bool returns_full = false;  ///< all of it is FULL or whole
+    std::vector<DeclaredParameter> signature;   ///< as written
+    std::vector<DeclaredParameter> parameters;  ///< what it gets: what is handed in, and what it reads from outside
+    std::vector<DeclaredParameter> written;     ///< variables outside that it writes, as //@writes says
+    bool vertex = false;                        ///< of the vertex stage: floats are highp unless it says otherwise
     std::vector<std::string> variants;  ///< sets of defines, separated by spaces; TIER_CONSOLE where none is named
     std::vector<Promise> promises;
     std::vector<std::string> jumps;  ///< GLSL; where one of these changes its value, the function may jump
@@ -76,7 +87,9 @@ struct Declaration {
 
     /// "surface/surface.glsl:41"
     [[nodiscard]] std::string place() const;
-    /// As glslang mangles it: "storable(vf3;f1;".
+    /// Floats and vectors in, one of them back, and nothing outside: it can be called as it is.
+    [[nodiscard]] bool plain() const;
+    /// As glslang mangles a plain one: "storable(vf3;f1;".
     [[nodiscard]] std::string mangled() const;
     /// The exemption of a model, or nullptr.
     [[nodiscard]] const Exemption* exemption(shader_ir::Model model) const;
@@ -91,7 +104,10 @@ struct Declaration {
 ///     //@exempt half_flushed, es_minimum: at most 12 times; the reason
 ///     //@exempt half: within 0.001 * reach_m; the reason
 ///     //@not_run the reason
+///     //@stage vertex
+///     //@writes highp vec4 bone_x; vec3 light
 ///
+/// A domain with a type is of something outside that the function reads: `vec4 terms[9]: -64..64`, `sampler2D map: 0..1`.
 /// Functions without any line have parameters of Domain::Kind::missing. Error(check) with file and line for a line that
 /// cannot be read, or a parameter that does not exist.
 [[nodiscard]] std::vector<Declaration> functions_of(std::string_view path, std::string_view text);

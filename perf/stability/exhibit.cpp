@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "engine/error.h"
 #include "perf/cost/function_cost.h"
@@ -23,7 +24,7 @@ Declaration declared(const char* file, const char* name, std::span<const gl::Sha
     throw Mistake(std::string("the exhibit names ") + name + " in " + file + ", which is not there");
 }
 
-/// A function (vec2 at) -> vec3 over the unit square, in half. What is not finite is black, as an 8-bit target has it.
+/// A function (vec2 at) -> vec3 over the unit square. What is not finite is black, as an 8-bit target has it.
 Picture drawn(const ExhibitEntry& entry, const char* function, std::span<const gl::ShaderFile> files) {
     constexpr int kWidth = 192, kHeight = 108;
     const shader_ir::Module module = shader_ir::compile(
@@ -36,7 +37,7 @@ Picture drawn(const ExhibitEntry& entry, const char* function, std::span<const g
             inputs[0][1].push_back(1.0 - (y + 0.5) / kHeight);
         }
     }
-    const shader_ir::Columns color = shader_ir::evaluate(module, function, inputs, shader_ir::Model::half).returned;
+    const shader_ir::Columns color = shader_ir::evaluate(module, function, inputs, entry.pictured).returned;
     Picture picture{.width = kWidth, .height = kHeight, .rgba = {}};
     for (std::size_t pixel = 0; pixel < color[0].size(); ++pixel) {
         for (const std::vector<double>& channel : color) {
@@ -44,6 +45,15 @@ Picture drawn(const ExhibitEntry& entry, const char* function, std::span<const g
             picture.rgba.push_back(static_cast<std::uint8_t>(std::lround(255.0 * value)));
         }
         picture.rgba.push_back(255);
+    }
+    return picture;
+}
+
+Picture difference(const Picture& a, const Picture& b) {
+    Picture picture{.width = a.width, .height = a.height, .rgba = a.rgba};
+    for (std::size_t at = 0; at < picture.rgba.size(); ++at) {
+        if (at % 4 != 3)
+            picture.rgba[at] = static_cast<std::uint8_t>(std::min(4 * std::abs(a.rgba[at] - b.rgba[at]), 255));
     }
     return picture;
 }
@@ -85,7 +95,7 @@ std::vector<ExhibitEntry> exhibit_list() {
          "short vectors: their squares are 0 below 0.0078, and 1e-6 is 0 where subnormals are flushed",
          "surface: the half vector is guarded with 6.2e-5, in highp"},
         {"RGBM of black", "exhibit/rgbm.glsl", "rgbm_as_printed", "exhibit/rgbm.glsl", "rgbm_guarded",
-         "black where subnormals are flushed: 0 / 0", "environment: black has an alpha of 1/255"},
+         "black where subnormals are flushed: 0 / 0", "environment: black has an alpha of 1/255", shader_ir::Model::half_flushed},
         {"1000x - 500 step", "exhibit/metalness.glsl", "metalness_as_printed", "exhibit/metalness.glsl",
          "metalness_ramp", "brightness near 0.5: the ramp has two steps", "not yet: metalness is an input here"},
         {"unlimited tone curve", "exhibit/tone.glsl", "tone_as_printed", "tone_map/tone_map.glsl", "tone_map",
@@ -108,7 +118,9 @@ ExhibitResult measure(const ExhibitEntry& entry, const Effort& effort, const Dra
                          .mended = search(mended, effort, drawing),
                          .costs = costs_of(printed, mended, files),
                          .picture_printed = drawn(entry, "picture_printed", files),
-                         .picture_mended = drawn(entry, "picture_mended", files)};
+                         .picture_mended = drawn(entry, "picture_mended", files),
+                         .picture_difference = {}};
+    result.picture_difference = difference(result.picture_printed, result.picture_mended);
     const std::string place = printed.function().place();
     result.found = std::ranges::any_of(result.printed.violations,
                                        [&](const std::string& one) { return one.starts_with(place); }) &&

@@ -23,6 +23,7 @@ struct ExhibitEntry {
     const char* mended;   ///< the function that holds
     const char* breaks;   ///< in words: which inputs, and why
     const char* shipped;  ///< where halfframe has the form that holds, or why it has none yet
+    shader_ir::Model pictured = shader_ir::Model::half;  ///< the arithmetic of the pictures
 };
 
 /// Modelled: one call at each pixel of 1280x720, mediump as half. No mediump hardware was measured.
@@ -38,8 +39,9 @@ struct ExhibitResult {
     FunctionStability mended;
     std::vector<FixCost> costs;
     bool found = false;       ///< the printed form is refused, with its file and line; the mended one is not
-    Picture picture_printed;  ///< in half
+    Picture picture_printed;
     Picture picture_mended;
+    Picture picture_difference;  ///< black where both agree, white from a quarter of the range on
 };
 
 [[nodiscard]] std::vector<ExhibitEntry> exhibit_list();

@@ -51,13 +51,15 @@ void normalize(const DeclaredParameter& parameter, std::vector<double>& directio
 }  // namespace
 
 double held(const DeclaredParameter& parameter, double x) {
+    if (parameter.whole) return static_cast<double>(static_cast<float>(std::round(x))) + 0.0;  // no -0
     return parameter.full ? static_cast<double>(static_cast<float>(x)) : shader_ir::rounded(shader_ir::Model::half, x);
 }
 
 std::vector<double> hard_values(const DeclaredParameter& parameter, const std::vector<double>& constants) {
     const Domain& domain = parameter.domain;
     std::vector<double> base{0.0, 0x1p-24, 0x1p-14, 0.5, 1.0, 255.0, 256.0, kLargestHalf};
-    if (parameter.full) base.insert(base.end(), {0x1p-126, 0x1p-100, 0x1p100});
+    if (parameter.whole) base.insert(base.end(), {2.0, 31.0, 65535.0, 0x1p24, 0x1p31});
+    else if (parameter.full) base.insert(base.end(), {0x1p-126, 0x1p-100, 0x1p100});
     if (domain.kind == Domain::Kind::range) base.insert(base.end(), {domain.low, domain.high});
     base.insert(base.end(), constants.begin(), constants.end());
     std::vector<double> values;
@@ -68,7 +70,7 @@ std::vector<double> hard_values(const DeclaredParameter& parameter, const std::v
         }
     };
     for (const double x : base) {
-        const double step = step_at(x, Format::gradual, parameter.full);
+        const double step = parameter.whole ? 1.0 : step_at(x, Format::gradual, parameter.full);
         for (const double neighbour : {x, x + step, x - step}) add(neighbour);
     }
     if (domain.kind == Domain::Kind::any)
@@ -107,7 +109,8 @@ std::vector<double> all_halves(const DeclaredParameter& parameter) {
     for (std::uint32_t bits = 0; bits < 65536; ++bits) {
         const double x = shader_ir::value_of_half(static_cast<std::uint16_t>(bits));
         const bool one_nan_is_enough = std::isnan(x) && bits != 0x7e00u;
-        if (in_domain(parameter.domain, x) && !one_nan_is_enough) values.push_back(x);
+        if (parameter.whole && x != std::floor(x)) continue;
+        if (in_domain(parameter.domain, x) && !one_nan_is_enough) values.push_back(parameter.whole ? x + 0.0 : x);
     }
     sort_and_unite(values);
     return values;

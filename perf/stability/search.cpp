@@ -142,23 +142,32 @@ void judge_sweep(const Trial& trial, const Promise& promise, const std::vector<b
     }
 }
 
+/// A context has sixteen textures for what a function gets.
+bool can_draw(const Declaration& function) { return pieces_of(function).size() <= 16; }
+
 /// Draws a batch: mediump as written, or everything in highp.
 Columns drawn(const Subject& subject, const Batch& batch, const Drawing& drawing, gl::Arithmetic arithmetic) {
     const Declaration& function = subject.function();
-    accuracy::DrawnFunction wanted{.function = function.name,
+    accuracy::DrawnFunction wanted{.files = subject.paths(),
+                                   .more_text = subject.helpers(),
+                                   .available = subject.files(),
                                    .arithmetic = arithmetic,
-                                   .defines = subject.defines(),
-                                   .returned = function.returned};
-    for (const std::string& path : subject.paths()) {
-        if (gl::find_shader_file(path) != nullptr) wanted.files.push_back(path);
-        else wanted.more_text = subject.text();
+                                   .defines = subject.defines()};
+    std::vector<Columns> inputs;
+    for (const Piece& piece : pieces_of(function)) {
+        wanted.parameters.push_back({.components = piece.components, .full = piece.full});
+        const auto first = batch.inputs[piece.parameter].begin() + static_cast<std::ptrdiff_t>(piece.first);
+        inputs.emplace_back(first, first + piece.components);
     }
-    for (const DeclaredParameter& parameter : function.parameters)
-        wanted.parameters.push_back({.components = parameter.components, .full = parameter.full});
-    const std::vector<float> pixels = accuracy::draw_function(drawing.gl, drawing.caps, wanted, batch.inputs);
-    Columns results(static_cast<std::size_t>(function.returned), std::vector<double>(batch.lanes()));
-    for (std::size_t s = 0; s < results.size(); ++s) {
-        for (std::size_t lane = 0; lane < batch.lanes(); ++lane) results[s][lane] = pixels[lane * 4 + s];
+    Columns results;
+    for (std::size_t call = 0; call < calls_of(function); ++call) {
+        wanted.function = function.plain() ? function.name : call_name(call);
+        wanted.returned = std::min(function.returned - 4 * static_cast<int>(call), 4);
+        const std::vector<float> pixels = accuracy::draw_function(drawing.gl, drawing.caps, wanted, inputs);
+        for (std::size_t s = 0; s < static_cast<std::size_t>(wanted.returned); ++s) {
+            std::vector<double>& column = results.emplace_back(batch.lanes());
+            for (std::size_t lane = 0; lane < batch.lanes(); ++lane) column[lane] = pixels[lane * 4 + s];
+        }
     }
     return results;
 }
@@ -198,7 +207,7 @@ std::vector<Tally> empty_tallies(const Declaration& function, const Drawing* dra
         Tally& tally = tallies.emplace_back(Tally{.arithmetic = shader_ir::name(model), .model = model});
         if (const Exemption* exemption = function.exemption(model)) tally.at_most = exemption->at_most;
     }
-    if (drawing == nullptr) return tallies;
+    if (drawing == nullptr || !can_draw(function)) return tallies;
     const perf::ArithmeticProbe& mediump = drawing->probe.mediump;
     const Model like = mediump.is_half() && !mediump.keeps_subnormals ? Model::half_flushed : Model::half;
     for (const auto& [name, model] : {std::pair{"mediump here", like}, std::pair{"highp here", Model::in_float}}) {
@@ -317,7 +326,15 @@ bool FunctionStability::portable() const {
 
 FunctionStability search(const Subject& subject, const Effort& effort, const Drawing* drawing,
                          const std::function<void(std::size_t done, std::size_t planned)>& step) {
-    return Search(subject, effort, drawing).run(step);
+    // The criterion moves each component by itself, so the work grows with their square. What hands on uniforms gets fewer
+    // inputs for it: the plain function that it calls gets them all.
+    Effort scaled = effort;
+    constexpr std::size_t kUsual = 12;
+    if (!subject.function().plain() && subject.components() > kUsual) {
+        scaled.combinations = effort.combinations * kUsual / subject.components();
+        scaled.drawn = effort.drawn * kUsual / subject.components();
+    }
+    return Search(subject, scaled, drawing).run(step);
 }
 
 std::vector<double> badness(const Subject& subject, const Batch& batch, Model model) {

@@ -53,6 +53,7 @@ std::vector<std::vector<double>> simpler_inputs(const Declaration& function, con
         for (int s = 0; s < parameter.components; ++s, ++at) {
             if (parameter.domain.kind == Domain::Kind::unit) continue;
             for (const double x : simpler(input[at])) {
+                if (parameter.whole && x != std::floor(x)) continue;
                 if (!in_domain(parameter.domain, x) || complexity(x) >= complexity(input[at])) continue;
                 inputs.push_back(input);
                 inputs.back()[at] = x;
@@ -113,8 +114,11 @@ std::vector<Step> steps_of(const Subject& subject, const std::vector<double>& in
     std::vector<Step> steps;
     for (std::size_t i = 0; i < std::min(truth.size(), narrow.size()) && truth[i].line == narrow[i].line; ++i) {
         const std::string place = subject.place(truth[i].line);
-        const bool own = place.starts_with(subject.function().file + ":");
-        steps.push_back({place, own ? line_of(subject.text(), place) : "", truth[i].scalars, narrow[i].scalars});
+        if (place.starts_with("<")) continue;  // what hands the inputs over
+        const auto file = std::ranges::find_if(
+            subject.files(), [&](const gl::ShaderFile& one) { return place.starts_with(std::string(one.path) + ":"); });
+        steps.push_back({place, file == subject.files().end() ? "" : line_of(file->text, place), truth[i].scalars,
+                         narrow[i].scalars});
     }
     return steps;
 }

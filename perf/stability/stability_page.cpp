@@ -32,7 +32,7 @@ thead th { border-bottom: 2px solid var(--ink); } .number { text-align: right; w
 td.over { font-weight: 700; text-decoration: underline; } td.exempt { font-style: italic; }
 figure { margin: .75rem 0; } svg, img { display: block; max-width: 100%; height: auto; }
 svg text { font: 11px "DejaVu Sans Mono", monospace; fill: var(--ink); }
-.pair { display: flex; gap: 1rem; flex-wrap: wrap; } .pair img { border: 1px solid var(--line); width: 24rem;
+.pair { display: flex; gap: 1rem; flex-wrap: wrap; } .pair img { border: 1px solid var(--line); width: 22rem;
   image-rendering: pixelated; }
 details { border-top: 1px solid var(--line); padding: .4rem 0; } summary { cursor: pointer; }
 summary b { font-size: 1.05rem; } pre, code { font: .85rem/1.45 "DejaVu Sans Mono", monospace; }
@@ -187,10 +187,11 @@ std::string promise_line(const Declaration& function) {
 std::string section(const FunctionStability& function, std::size_t index, const std::string& command, bool open) {
     const Tally& worst = function.worst();
     std::string html =
-        fmt::format("<details id=\"f{}\"{}><summary><b>{}</b> <span class=\"soft\">{}</span></summary>\n", index,
+        fmt::format("<details{}><summary><b>{}</b> <span class=\"soft\">{}</span></summary>\n",
                     open && !function.violations.empty() ? " open" : "", html_escaped(function.title),
                     html_escaped(function.function.place()));
-    html += "<p>" + html_escaped(promise_line(function.function)) + "</p>\n";
+    // A browser opens what holds the target of a link, and not the target itself.
+    html += fmt::format("<p id=\"f{}\" tabindex=\"-1\">{}</p>\n", index, html_escaped(promise_line(function.function)));
     for (const Exemption& one : function.function.exemptions)
         html +=
             fmt::format("<p class=\"soft\">Exempt, {}: {}</p>\n", html_escaped(one.bound()), html_escaped(one.reason));
@@ -236,8 +237,11 @@ std::string exhibit_section(const std::vector<ExhibitResult>& exhibit) {
         if (!one.printed.violations.empty())
             html += "<p class=\"soft\">" + html_escaped(one.printed.violations.front()) + "</p>\n";
         html += costs_paragraph(one.costs);
-        html += "<div class=\"pair\">" + picture(one.picture_printed, "as printed, in half") +
-                picture(one.picture_mended, one.entry.mended + std::string(", in half")) + "</div>\n";
+        const std::string arithmetic =
+            one.entry.pictured == shader_ir::Model::half ? "half" : "half without subnormals";
+        html += "<div class=\"pair\">" + picture(one.picture_printed, "as printed, in " + arithmetic) +
+                picture(one.picture_mended, one.entry.mended + std::string(", in ") + arithmetic) +
+                picture(one.picture_difference, "where they differ, four times as strong") + "</div>\n";
         html += section(one.printed, 1000 + 2 * i, "halfframe stability", false) +
                 section(one.mended, 1001 + 2 * i, "halfframe stability", true);
     }

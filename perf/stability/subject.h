@@ -1,11 +1,13 @@
 // A declared function, compiled with one set of defines and ready to run in any model.
 #pragma once
 
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "perf/shader_ir/evaluate.h"
+#include "perf/stability/call_text.h"
 #include "perf/stability/declaration.h"
 
 namespace halfframe::stability {
@@ -27,6 +29,8 @@ public:
     /// that does not compile, promises and jumps included, and for a variant that
     /// leaves the function out.
     Subject(Declaration function, std::string variant, std::span<const gl::ShaderFile> files);
+    Subject(const Subject&) = delete;  // files() points into it
+    Subject& operator=(const Subject&) = delete;
 
     [[nodiscard]] const Declaration& function() const { return function_; }
     [[nodiscard]] const std::string& variant() const { return variant_; }
@@ -35,6 +39,9 @@ public:
     [[nodiscard]] const std::vector<std::string>& paths() const { return paths_; }
     /// The file that holds the function.
     [[nodiscard]] std::string_view text() const { return text_; }
+    /// All that there is to include, for whoever compiles it again; and what stands behind paths().
+    [[nodiscard]] std::span<const gl::ShaderFile> files() const { return files_; }
+    [[nodiscard]] const std::string& helpers() const { return helpers_; }
     /// "blinn_lobe", or "blinn_lobe (TIER_REFERENCE)" where another set of defines than the usual one is meant;
     /// an overload goes with its types.
     [[nodiscard]] std::string title() const;
@@ -58,12 +65,18 @@ public:
 
 private:
     void collect_constants(const shader_ir::Function& function, std::vector<const shader_ir::Function*>& seen);
+    void refuse_unset(const shader_ir::Function& called) const;
+    void refuse_started(const std::set<shader_ir::Id>& loaded) const;
+    [[nodiscard]] std::vector<shader_ir::Columns> pieces(const Batch& batch) const;
 
     Declaration function_;
     std::string variant_;
     std::vector<std::string> paths_;
     std::string_view text_;
     std::string helpers_;
+    std::string outside_, own_text_;  ///< what stands before the file, and the file without its stage; may be empty
+    std::vector<gl::ShaderFile> files_;
+    std::vector<Piece> pieces_;
     shader_ir::Module module_;
     std::size_t components_ = 0;
     bool overloaded_ = false;

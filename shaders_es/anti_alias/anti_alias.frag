@@ -9,11 +9,16 @@ FRAGMENT_IN FULL vec2 vertex_uv;
 uniform HALF sampler2D picture;
 uniform FULL vec4 texel;  // xy: one pixel. FULL: 1 / 1280 added to a uv is below half's last bit
 
-//@not_run it reads a texture; what it computes is edge_luma
+//@domain pixels: -8..8; FULL vec2 vertex_uv: 0..1; FULL vec4 texel: 0..0.01; HALF sampler2D picture: 0..1
+//@exempt half_flushed, es_minimum: within 3.0 * exp2(-14.0); the three products of edge_luma
+//@promise in 0..1
+//@jumps step(0.5, vertex_uv.x + pixels.x * texel.x)
 float luma_at(FULL vec2 pixels) { return edge_luma(sample_2d(picture, vertex_uv + pixels * texel.xy).rgb); }
 
 // Pixels from this one to the end of the run, up to the reach; `end` becomes the luma there less `middle`, or 0.
-//@not_run it reads a texture at every step; whole frames show it
+//@domain start, along: -1..1; middle: 0..1; enough: 0.02..0.5; FULL vec2 vertex_uv: 0..1; FULL vec4 texel: 0.0005..0.01; HALF sampler2D picture: 0..1
+//@promise in -8.5..8.5
+//@jumps clamp(floor((0.5 - vertex_uv.x - start.x * texel.x) / (along.x * texel.x)), 0.0, 9.0); step(enough, abs(edge_luma(picture[0].rgb) - middle)); step(enough, abs(edge_luma(picture[1].rgb) - middle))
 float walk(vec2 start, vec2 along, float middle, float enough, out float end) {
     end = 0.0;
     for (int i = 1; i <= ANTI_ALIAS_REACH; i++) {

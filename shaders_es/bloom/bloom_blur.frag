@@ -6,7 +6,9 @@ uniform HALF sampler2D image;
 uniform FULL vec4 texel;  // xy: one texel in the direction of the blur. FULL: as in bloom_bright.frag
 
 // Both taps at that distance.
-//@not_run it reads a texture; what it computes is bloom_of_stored
+//@domain apart: -0.1..0.1; FULL vec2 vertex_uv: 0..1; HALF sampler2D image: 0..8
+//@promise in 0..16
+//@jumps step(0.5, vertex_uv.x - apart.x); step(0.5, vertex_uv.x + apart.x)
 vec3 pair(FULL vec2 apart) {
     return bloom_of_stored(sample_2d(image, vertex_uv - apart).rgb) +
            bloom_of_stored(sample_2d(image, vertex_uv + apart).rgb);

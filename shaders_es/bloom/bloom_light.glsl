@@ -4,5 +4,7 @@
 uniform HALF sampler2D bloom;
 uniform FULL vec4 bloom_scale;  // xy: from the frame's uv to the glow's. FULL: it multiplies a uv. z strength
 
-//@not_run it reads a texture; what it computes is bloom_of_stored
+//@domain uv: 0..1; HALF sampler2D bloom: 0..8; FULL vec4 bloom_scale: 0..1
+//@promise in 0..8; where bloom_scale.z == 0.0: result == vec3(0.0)
+//@jumps step(0.5, uv.x * bloom_scale.x)
 vec3 bloom_light(FULL vec2 uv) { return bloom_of_stored(sample_2d(bloom, uv * bloom_scale.xy).rgb) * bloom_scale.z; }

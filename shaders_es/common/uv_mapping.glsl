@@ -18,10 +18,15 @@ uniform highp vec4 uv_mapping[2];  // rows of the matrix; xy the offset
 uniform highp vec4 uv_b_mapping[2];
 #endif
 
-//@not_run vertex stage, highp, of uniforms and attributes
+//@stage vertex
+//@domain at, rows, offset: -64..64
+//@promise in -8256..8256; where rows == vec4(1.0, 0.0, 0.0, 1.0) && offset == vec2(0.0): result == at
 vec2 mapped_uv(vec2 at, vec4 rows, vec2 offset) { return vec2(dot(rows.xy, at), dot(rows.zw, at)) + offset; }
 
-//@not_run vertex stage, highp, of uniforms and attributes
+//@stage vertex
+//@variant TIER_CONSOLE UV_MAPPED UV_FROM_1
+//@domain vec2 uv: 0..1; highp vec4 uv_range: -64..64; vec2 uv1: 0..1; highp vec4 uv1_range: -64..64; highp vec4 uv_mapping[2]: -8..8
+//@promise in -2056..2056
 vec2 first_uv() {
 #ifdef UV_FROM_1
     vec2 at = uv_from_steps(uv1, uv1_range);
@@ -35,7 +40,10 @@ vec2 first_uv() {
 }
 
 #ifdef UV_B
-//@not_run vertex stage, highp, of uniforms and attributes
+//@stage vertex
+//@variant TIER_CONSOLE UV_B UV_B_FROM_1
+//@domain vec2 uv: 0..1; highp vec4 uv_range: -64..64; vec2 uv1: 0..1; highp vec4 uv1_range: -64..64; highp vec4 uv_b_mapping[2]: -8..8
+//@promise in -2056..2056
 vec2 second_uv() {
 #ifdef UV_B_FROM_1
     vec2 at = uv_from_steps(uv1, uv1_range);

@@ -3,13 +3,12 @@
 #include "environment/environment_limits.h"
 
 // What a white Lambert surface of normal n shows: nine spherical harmonics as polynomials of n, constants folded in on the
-// CPU (R. Ramamoorthi and P. Hanrahan, SIGGRAPH 2001). The CPU has windowed them; the comparison with 0 is for half, whose
-// rounding may fall below where they only just touch it.
+// CPU (R. Ramamoorthi and P. Hanrahan, SIGGRAPH 2001). The CPU has windowed them; the comparison with 0 is for what rounding
+// leaves where they only just touch it. FULL: terms cancel there, and in half each keeps a rounding of the largest.
 //@domain n: unit; c0, c1, c2, c3, c4, c5, c6, c7, c8: -64..64
-//@exempt half, half_flushed, es_minimum: within 0.002 * dot(abs(c0) + abs(c1) + abs(c2) + abs(c3) + abs(c4) + abs(c5) + abs(c6) + abs(c7) + abs(c8), vec3(1.0)); terms that cancel just where the max() cuts keep the rounding of the largest
 //@promise in 0..65504
-vec3 irradiance(vec3 n, vec3 c0, vec3 c1, vec3 c2, vec3 c3, vec3 c4, vec3 c5, vec3 c6, vec3 c7, vec3 c8) {
-    vec3 sum = c0 + c1 * n.y + c2 * n.z + c3 * n.x;
+vec3 irradiance(FULL vec3 n, vec3 c0, vec3 c1, vec3 c2, vec3 c3, vec3 c4, vec3 c5, vec3 c6, vec3 c7, vec3 c8) {
+    FULL vec3 sum = c0 + c1 * n.y + c2 * n.z + c3 * n.x;
     sum += c4 * (n.x * n.y) + c5 * (n.y * n.z) + c6 * (3.0 * n.z * n.z - 1.0);
     sum += c7 * (n.x * n.z) + c8 * (n.x * n.x - n.y * n.y);
     return max(sum, vec3(0.0));
@@ -37,12 +36,11 @@ vec3 unpacked_rgbm(vec4 stored, float root_range) {
 
 // Low tier: what lies between the diffuse light and two cubes of smoothness ENVIRONMENT_ROUGH and ENVIRONMENT_SHARP. Not
 // mix(), which is a + s (b - a): in half, 256 beside a dark 0.016 left nothing of the dark one. The
-// max() keeps compilers from making a mix() of it.
-//@exempt half, half_flushed, es_minimum: within 0.001 * dot(diffuse, vec3(1.0)) + 0.0002; 1 / 0.35 in half moves the kink by 2^-11
+// max() keeps compilers from making a mix() of it. FULL: 1 / 0.35 in half moves the kink by 2^-11.
 //@domain diffuse, rough, sharp: 0..1024; smoothness: 0..1
 //@promise in 0..1024; where smoothness == 0.0: result == diffuse; where smoothness == 1.0: within(result, sharp, slack)
-vec3 mixed_reflection(vec3 diffuse, vec3 rough, vec3 sharp, float smoothness) {
-    float r = clamp(smoothness * (1.0 / ENVIRONMENT_ROUGH), 0.0, 1.0);
-    float s = clamp((smoothness - ENVIRONMENT_ROUGH) * (1.0 / (ENVIRONMENT_SHARP - ENVIRONMENT_ROUGH)), 0.0, 1.0);
+vec3 mixed_reflection(vec3 diffuse, vec3 rough, vec3 sharp, FULL float smoothness) {
+    FULL float r = clamp(smoothness * (1.0 / ENVIRONMENT_ROUGH), 0.0, 1.0);
+    FULL float s = clamp((smoothness - ENVIRONMENT_ROUGH) * (1.0 / (ENVIRONMENT_SHARP - ENVIRONMENT_ROUGH)), 0.0, 1.0);
     return (diffuse * max(1.0 - r, 0.0) + rough * r) * max(1.0 - s, 0.0) + sharp * s;
 }

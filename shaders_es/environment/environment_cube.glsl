@@ -7,11 +7,14 @@ uniform HALF vec4 reflection_scale;  // x: root of the range and exposure (RGBM8
 
 #ifdef IRRADIANCE_BY_VERTEX
 FRAGMENT_IN HALF vec3 vertex_irradiance;
-//@not_run it returns a varying
+//@domain n: unit; HALF vec3 vertex_irradiance: 0..1024
+//@promise in 0..1024; result == vertex_irradiance
 vec3 environment_irradiance(vec3 n) { return vertex_irradiance; }
 #else
 uniform HALF vec4 irradiance_terms[9];
-//@not_run it hands nine uniforms to irradiance()
+//@variant TIER_REFERENCE
+//@domain n: unit; HALF vec4 irradiance_terms[9]: -64..64
+//@promise in 0..65504
 vec3 environment_irradiance(vec3 n) {
     return irradiance(n, irradiance_terms[0].rgb, irradiance_terms[1].rgb, irradiance_terms[2].rgb,
                       irradiance_terms[3].rgb, irradiance_terms[4].rgb, irradiance_terms[5].rgb,
@@ -20,7 +23,11 @@ vec3 environment_irradiance(vec3 n) {
 #endif
 
 // Half is enough for a direction here: its 11 bits are a thirtieth of a degree, a texel of the largest cube half a degree.
-//@not_run it reads a texture; what it computes is reflection_level and unpacked_rgbm
+//@variant TIER_CONSOLE
+//@variant TIER_REFERENCE
+//@domain toward: unit; smoothness: 0..1; HALF samplerCube reflection_map: 0..1; HALF vec4 reflection_scale: 0..8
+//@promise in 0..64; where reflection_scale.x == 0.0: result == vec3(0.0)
+//@jumps step(0.5, toward.x)
 vec3 environment_reflection(vec3 toward, float smoothness) {
     vec4 stored = sample_cube_lod(reflection_map, toward, reflection_level(smoothness, reflection_scale.y));
 #ifdef TIER_REFERENCE

@@ -6,7 +6,11 @@
 uniform highp vec4 irradiance_terms[9];
 VERTEX_OUT HALF vec3 vertex_irradiance;
 
-//@not_run it hands nine uniforms to irradiance()
+//@stage vertex
+//@variant TIER_LOW
+//@domain n: unit; highp vec4 irradiance_terms[9]: -64..64
+//@writes HALF vec3 vertex_irradiance
+//@promise in 0..65504
 void place_irradiance(vec3 n) {
     vertex_irradiance =
         irradiance(n, irradiance_terms[0].rgb, irradiance_terms[1].rgb, irradiance_terms[2].rgb,
@@ -14,6 +18,6 @@ void place_irradiance(vec3 n) {
                    irradiance_terms[6].rgb, irradiance_terms[7].rgb, irradiance_terms[8].rgb);
 }
 #else
-//@not_run it does nothing
+//@not_run it has nothing to do here: the fragment stage adds the light up
 void place_irradiance(vec3 n) {}
 #endif

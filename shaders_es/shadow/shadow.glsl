@@ -5,18 +5,16 @@
 // filter in metres, a plane never shadows itself whatever its slope (its depth over the filter changes by
 // reach * tan(angle); the step gains reach * sin(angle) / cos(angle)). FULL: metres, and 1 - cosine^2 near 0.
 //@domain n, toward_sun: unit; reach_m: 0..1000
-//@exempt float, half, half_flushed, es_minimum: within 0.0006 * reach_m; 1 - cosine^2 has 24 bits where the light is straight above and no lift is needed
 //@promise in -1000..1000; where reach_m == 0.0: length(result) == 0.0; within(shadow_lift(n.yzx, toward_sun.yzx, reach_m), result.yzx, 2.0 * slack)
 FULL vec3 shadow_lift(FULL vec3 n, FULL vec3 toward_sun, FULL float reach_m) {
-    FULL float cosine = dot(n, toward_sun);
-    return n * (reach_m * sqrt(max(1.0 - cosine * cosine, 0.0)));
+    FULL vec3 sine = cross(n, toward_sun);  // not the root of 1 - cosine^2, which cancels where the light is straight above
+    return n * (reach_m * length(sine));
 }
 
 // Share of the sun's light that four comparisons let through, each 0..1.
 //@domain lit: 0..1
 //@promise in 0..1; rising lit
-//@exempt half_flushed, es_minimum: within 0.00025; each quarter below 2^-14 is 0: a sixteenth of a code
-float lit_share(vec4 lit) { return dot(lit, vec4(0.25)); }
+float lit_share(vec4 lit) { return dot(lit, vec4(1.0)) * 0.25; }  // quartered last: a quarter below 2^-14 may be 0
 
 // What the ground under a dynamic object keeps of its colour: 1 - strength in the middle, 1 from one radius on, smooth at
 // both. `from_centre` in radii; strength 0..1.

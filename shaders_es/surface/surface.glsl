@@ -4,16 +4,20 @@
 
 // Fresnel reflectance (Schlick 1994). specular 0..1, l_dot_h 0..1.
 //@domain specular, l_dot_h: 0..1
-//@exempt half, half_flushed, es_minimum: within 0.0025; 1 - l_dot_h has steps of 2^-11 near 1, and its fifth power five of them: half a code
+//@exempt half_flushed, es_minimum: within exp2(-14.0); the fifth power, or what it is multiplied with, is 0 below 2^-14
 //@promise in 0..1; falling l_dot_h; where l_dot_h == 1.0: result == specular; where l_dot_h == 0.0: within(result, vec3(1.0), slack)
-vec3 fresnel_schlick(vec3 specular, float l_dot_h) { return specular + (1.0 - specular) * pow5(saturate(1.0 - l_dot_h)); }
+vec3 fresnel_schlick(vec3 specular, FULL float l_dot_h) {
+    float share = pow5(clamp(1.0 - l_dot_h, 0.0, 1.0));
+    return specular + (1.0 - specular) * share;
+}
 
 // Fresnel of a prefiltered environment: rough surfaces brighten less at grazing angles (the talk, "Glossy Fresnel").
 //@domain specular, smoothness, n_dot_v: 0..1
-//@exempt half_flushed, es_minimum: within 0.0002; the fifth power is 0 below 2^-14: a twentieth of a code
+//@exempt half_flushed, es_minimum: within exp2(-14.0); the fifth power, or what it is multiplied with, is 0 below 2^-14
 //@promise in 0..1; falling n_dot_v; where n_dot_v == 1.0: result == specular
-vec3 fresnel_glossy(vec3 specular, float smoothness, float n_dot_v) {
-    return specular + (max(vec3(smoothness), specular) - specular) * pow5(saturate(1.0 - n_dot_v));
+vec3 fresnel_glossy(vec3 specular, float smoothness, FULL float n_dot_v) {
+    float share = pow5(clamp(1.0 - n_dot_v, 0.0, 1.0));
+    return specular + (max(vec3(smoothness), specular) - specular) * share;
 }
 
 // Blinn power from glTF's perceptual roughness 0..1: 2 / alpha^2 - 2 with alpha = roughness^2 gives the lobe the width of
@@ -31,28 +35,43 @@ float power_from_roughness(float roughness) {
 //@promise in 0..1; rising power; where power == 2.0: result == 0.0; where power == 2048.0: within(result, 1.0, slack)
 float smoothness_from_power(float power) { return saturate((log2(power) - 1.0) * 0.1); }
 
+// (n.h)^power is given as its square root too: direct_light multiplies by the root twice, so that nothing is subnormal in half
+// before the highlight itself is below 2^-14. As one factor the lobe ended there, and (power + 2) / 8 made 0.016 of it.
 #ifdef TIER_REFERENCE
-// (n.h)^power as written.
+// As written.
 //@variant TIER_REFERENCE
 //@domain n, h: unit; power: 1.75..2048
 //@promise in 0..1.002; falling power; where n == h: within(result, 1.0, 0.002)
 float blinn_lobe(FULL vec3 n, FULL vec3 h, float power) { return pow(max(dot(n, h), 1e-8), power); }
+//@variant TIER_REFERENCE
+//@domain n, h: unit; power: 1.75..2048
+//@promise in 0..1.001; falling power; where n == h: within(result, 1.0, 0.001)
+float blinn_root(FULL vec3 n, FULL vec3 h, float power) { return pow(max(dot(n, h), 1e-8), 0.5 * power); }
 #else
-// (n.h)^power from the chord n - h. With x = |n - h|^2 / 2 = 1 - n.h, ln(1 - x) = -x (1 + x/2 + x^2/3 + x^3/4 ...): at a
-// power of 2048 half's n.h has three values inside the highlight, the chord has hundreds. n and h are FULL because their
-// difference is what counts; from the scaled square on half is enough (0.06 % of the peak). The series stops at x^3: at a
-// power of 2 and n.h = 0.15 the lobe is 0.023 too bright, above a power of 8 under 0.001. 16 keeps the square of a one-texel
-// highlight (1e-5) above half's smallest normal number. `halfframe accuracy surface` prints both errors.
+// From the chord n - h. With x = |n - h|^2 / 2 = 1 - n.h, ln(1 - x) = -x (1 + x/2 + x^2/3 + x^3/4 ...): at a
+// power of 2048 half's n.h has three values inside the highlight, the chord has hundreds. All is FULL up to the exponent: the
+// difference is what counts, and the series would add four roundings where a wide lobe is dark. The series stops at x^3: at a
+// power of 2 and n.h = 0.15 the lobe is 0.023 too bright, above a power of 8 under 0.001. Where FULL is mediump (0.06 % of the
+// peak), 16 keeps the square of a one-texel highlight (1e-5) above half's smallest normal number. `halfframe accuracy surface`
+// prints both errors.
+//@domain n, h: unit; power: 1.75..2048
+//@promise in 0..1; falling power; where n == h: result == 1.0; within(blinn_root(h, n, power), result, slack)
+//@promise within(blinn_root(n.yzx, h.yzx, power), result, slack)
+float blinn_root(FULL vec3 n, FULL vec3 h, float power) {
+    FULL vec3 chord = 16.0 * (n - h);
+    FULL float square = dot(chord, chord);  // 512 x, 0..1024
+    FULL float x = square * (1.0 / 512.0);
+    // Past the end of half the exponent is inf and the lobe 0, as it should be.
+    // 0.00140888 is log2(e) / 2 / 512: of the root, in bits.
+    float exponent = square * power * (0.00140888 + x * (0.00070444 + x * (0.00046916 + x * 0.00035222)));
+    return exp2(-exponent);
+}
 //@domain n, h: unit; power: 1.75..2048
 //@promise in 0..1; falling power; where n == h: result == 1.0; within(blinn_lobe(h, n, power), result, slack)
-//@exempt half, half_flushed, es_minimum: within 0.001; the series adds four roundings where a wide lobe is under 0.1 (0.0004)
 //@promise within(blinn_lobe(n.yzx, h.yzx, power), result, slack)
 float blinn_lobe(FULL vec3 n, FULL vec3 h, float power) {
-    FULL vec3 chord = 16.0 * (n - h);
-    float square = dot(chord, chord);    // 512 x, 0..1024
-    float x = square * (1.0 / 512.0);
-    float exponent = square * (power * (1.442695 / 512.0));
-    return exp2(-exponent * (1.0 + x * (0.5 + x * (0.333 + x * 0.25))));
+    float root = blinn_root(n, h, power);
+    return root * root;
 }
 #endif
 
@@ -70,10 +89,9 @@ float distance_falloff(FULL float distance_squared, FULL float inverse_range_squ
 
 // Spot cone: 0 outside, 1 inside, smooth between. cos_scale = 1 / (cos inner - cos outer).
 //@domain cosine, cos_outer: -1..1; cos_scale: 0.5..2048
-//@exempt half_flushed, es_minimum: within 0.0006; t and its square are 0 below 2^-14: a seventh of a code
 //@promise in 0..1; rising cosine; where cosine <= cos_outer: result == 0.0
-float cone_falloff(float cosine, float cos_outer, float cos_scale) {
-    float t = saturate((cosine - cos_outer) * cos_scale);
+float cone_falloff(FULL float cosine, float cos_outer, float cos_scale) {
+    FULL float t = clamp((cosine - cos_outer) * cos_scale, 0.0, 1.0);
     return t * t * (3.0 - 2.0 * t);
 }
 
@@ -90,22 +108,22 @@ float area_power(float power, float ratio) {
 
 // Light leaving towards v for one direction of light. `radiance` is the light's color (irradiance / pi) at the point.
 //@domain albedo, specular: 0..1; power: 1.75..2048; n, v, l: unit; radiance: 0..250
-//@exempt half: within 1e-4 * max(max(radiance.r, radiance.g), radiance.b) + 1e-6; n.l and the lobe are subnormal near their ends
-//@exempt half_flushed, es_minimum: within 0.02 * max(max(radiance.r, radiance.g), radiance.b) + 0.016; lobe and light are 0 below 2^-14 they are multiplied by up to 256
+//@exempt half_flushed, es_minimum: within exp2(-14.0) * (1.0 + max(max(radiance.r, radiance.g), radiance.b) * (3.0 + (power + 2.0) * 0.125)); the result and three sums and products are 0 below 2^-14, and Fresnel is before it is multiplied by the peak of the lobe
 //@promise in 0..65504; where dot(n, l) <= 0.0: result == vec3(0.0)
 vec3 direct_light(vec3 albedo, vec3 specular, float power, FULL vec3 n, FULL vec3 v, FULL vec3 l, vec3 radiance) {
     FULL vec3 h = l + v;
     h *= inversesqrt(max(dot(h, h), 6.2e-5));  // l = -v has no half vector; 6.2e-5 is just above half's smallest normal
-    float n_dot_l = saturate(dot(n, l));
-    vec3 reflected = fresnel_schlick(specular, saturate(dot(l, h))) * ((power + 2.0) * 0.125 * blinn_lobe(n, h, power));
+    FULL float n_dot_l = clamp(dot(n, l), 0.0, 1.0);
+    vec3 reflected = fresnel_schlick(specular, dot(l, h));
+    float root = blinn_root(n, h, power);
+    reflected *= (power + 2.0) * 0.125 * root * root;
     return (albedo + reflected) * (radiance * n_dot_l);
 }
 
 // As direct_light, for a sphere instead of a point: the lobe gets lower and wider and keeps its energy, because the power
 // that widens it normalises it too.
 //@domain albedo, specular, ratio: 0..1; power: 2..2048; n, v, l: unit; radiance: 0..250
-//@exempt half: within 1e-4 * max(max(radiance.r, radiance.g), radiance.b) + 1e-6; n.l and the lobe are subnormal near their ends
-//@exempt half_flushed, es_minimum: within 0.02 * max(max(radiance.r, radiance.g), radiance.b) + 0.016; lobe and light are 0 below 2^-14 they are multiplied by up to 256
+//@exempt half_flushed, es_minimum: within exp2(-14.0) * (1.0 + max(max(radiance.r, radiance.g), radiance.b) * (3.0 + (power + 2.0) * 0.125)); the result and three sums and products are 0 below 2^-14, and Fresnel is before it is multiplied by the peak of the lobe
 //@promise in 0..65504; where dot(n, l) <= 0.0: result == vec3(0.0)
 vec3 sphere_light(vec3 albedo, vec3 specular, float power, FULL vec3 n, FULL vec3 v, FULL vec3 l, vec3 radiance,
                   float ratio) {

@@ -45,7 +45,10 @@ uniform highp vec4 light_direction[LIGHT_SLOTS];  // xyz unit, w = cos outer
 uniform highp vec4 light_count;                           // x
 VERTEX_OUT HALF vec3 vertex_light;
 
-//@not_run it adds up uniforms in highp; what it computes is distance_falloff and cone_falloff
+//@stage vertex
+//@variant TIER_LOW LOCAL_LIGHTS ONE_LIGHT SPOT_LIGHTS
+//@domain at: -100..100; n: unit; highp vec4 light_position[1]: -100..100; where light_position[0].w >= 1e-6 && light_color[0].w >= 0.5; highp vec4 light_color[1]: 0..250; highp vec4 light_direction[1]: -1..1
+//@promise in 0..1.5e7
 vec3 local_light(vec3 at, vec3 n) {
     vec3 sum = vec3(0.0);
     for (int i = 0; i < LIGHT_SLOTS; i++) {

@@ -33,7 +33,11 @@ uniform HALF sampler2D occlusion_map;
 uniform HALF sampler2D normal_map;
 #endif
 
-//@not_run it reads a texture; what it computes is linear_from_srgb
+//@variant TIER_LOW
+//@variant TIER_CONSOLE
+//@domain image: 0..1; at: 0..1
+//@promise in 0..1
+//@jumps step(0.5, at.x)
 vec3 color_texel(HALF sampler2D image, FULL vec2 at) {
 #ifdef TIER_LOW
     return linear_from_srgb(sample_2d(image, at).rgb);  // ES 2.0 has no sRGB textures

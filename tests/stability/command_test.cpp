@@ -73,7 +73,12 @@ TEST(StabilityCommand, WhatContradictsItselfIsUsage) {
         EXPECT_EQ(result.exit_code, 2) << result.story();
         EXPECT_TRUE(result.output.empty()) << result.output;
     }
+    EXPECT_EQ(stability({own_file(), "--function", "mine", "--domain", "x 0..1"}).exit_code, 2);
+    EXPECT_EQ(stability({"tone_map", "--pictures", testing::TempDir()}).exit_code, 2);
     EXPECT_EQ(stability({"/nowhere/f.glsl"}).exit_code, 3);
+    const std::string broken = testing::TempDir() + "halfframe_broken.glsl";
+    std::ofstream(broken) << "//@domain x: 0..1\nfloat f(float x) { return x +; }\n";
+    EXPECT_EQ(stability({broken}).exit_code, 3);
 }
 
 }  // namespace

@@ -257,7 +257,7 @@ TEST_F(OnAContext, DomainsHoldWhatTheBuiltInScenesAskFor) {
     for (const SeenArgument& one : seen)
         EXPECT_GT(one.pixels, 0u) << one.function << "." << one.parameter << ": nothing was recorded";
     for (const std::string& violation : violations_of(seen)) ADD_FAILURE() << violation;
-    EXPECT_GE(seen.size(), 16u);
+    EXPECT_GE(seen.size(), 20u);
     SeenArgument outside = seen.at(3);
     outside.declared.high = outside.high / 2.0;
     EXPECT_EQ(violations_of({outside}).size(), 1u);

@@ -19,12 +19,12 @@ vec4 rgbm_guarded(vec3 color) {
     return vec4(min(color / range, vec3(1.0)), range);
 }
 
-// Read back: grey falls to black at the left.
+// Read back as a reflection and added to the light of a wall: where the reflection is black, at the left, the wall is lost.
 vec3 picture_printed(FULL vec2 at) {
-    vec4 stored = rgbm_as_printed(vec3(max(at.x - 0.2, 0.0)));
-    return stored.rgb * stored.a;
+    vec4 stored = rgbm_as_printed(vec3(max(at.x - 0.3, 0.0)));
+    return 0.25 + stored.rgb * stored.a;
 }
 vec3 picture_mended(FULL vec2 at) {
-    vec4 stored = rgbm_guarded(vec3(max(at.x - 0.2, 0.0)));
-    return stored.rgb * stored.a;
+    vec4 stored = rgbm_guarded(vec3(max(at.x - 0.3, 0.0)));
+    return 0.25 + stored.rgb * stored.a;
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/frame/budget.h"
+#include "engine/frame/cost_table.h"
 #include "engine/frame/scene.h"
 #include "engine/gl/caps.h"
 
@@ -75,5 +76,9 @@ struct LoadedEnvironment {
 
 /// The built-in budget "ps3_30fps", or a JSON file path. Unknown keys are errors that name the key.
 [[nodiscard]] Budget budget(const std::string& name_or_path);
+
+/// What effects cost on devices that are not here, as the cost model counted them in the built-in scenes: "prices", or
+/// a JSON file path. For estimate_frame() and budgeted_tiers() (engine/frame/cost_table.h).
+[[nodiscard]] CostTable cost_table(const std::string& name_or_path = "prices");
 
 }  // namespace halfframe::content

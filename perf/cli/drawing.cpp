@@ -17,28 +17,8 @@ constexpr const char* kDefaultBudget = "ps3_30fps";
 /// From `halfframe cost --json`: counting pins the driver, and times must not be taken from a pinned one.
 perf::Modelled modelled(const std::string& scene, SceneOptions options) {
     options.device.context = SceneOptions().device.context;
-    const nlohmann::json json =
-        nlohmann::json::parse(output_of_own("cost " + shell_quoted(scene) + options_text(options) + " --json"));
-    perf::Modelled result{.arithmetic = json.at("arithmetic").get<std::string>(),
-                          .words = json.at("modelled").get<std::string>()};
-    for (const auto& device : json.at("devices")) {
-        perf::ModelledDevice& to = result.devices.emplace_back();
-        to.name = device.at("profile").get<std::string>();
-        to.frame_ms = device.at("frame_ms").get<double>();
-        to.low_ms = device.at("frame_low_ms").get<double>();
-        to.high_ms = device.at("frame_high_ms").get<double>();
-        to.other_arithmetic_ms = device.at("other_arithmetic_frame_ms").get<double>();
-        for (const auto& pass : device.at("passes")) {
-            to.passes.push_back({pass.at("pass").get<std::string>(), pass.at("ms").get<double>(),
-                                 pass.at("low_ms").get<double>(), pass.at("high_ms").get<double>(),
-                                 pass.at("bound").get<std::string>()});
-        }
-        for (const auto& effect : device.at("effects")) {
-            to.effects.push_back({effect.at("effect").get<std::string>(), effect.at("ms").get<double>(),
-                                  effect.at("bound").get<std::string>()});
-        }
-    }
-    return result;
+    return perf::modelled_from(nlohmann::ordered_json::parse(
+        output_of_own("cost " + shell_quoted(scene) + options_text(options) + " --budget none --json")));
 }
 
 }  // namespace
@@ -55,8 +35,9 @@ void add_drawing_options(CLI::App& command, DrawingOptions& options) {
     command
         .add_option(
             "--budget", options.budget,
-            "Budget by name or .json file: rows [ms], frame [ms], memory [MiB], draws. A budget named here judges "
-            "the frame's time on a software driver too. Default: ps3_30fps")
+            "Budget by name or .json file: rows [ms], and limits of milliseconds, memory [MiB], counters and bytes a "
+            "pixel that fit scenes, cameras and tiers (content/README.md). One named here judges the frame's time on a "
+            "software driver too. Default: ps3_30fps")
         ->type_name("NAME|FILE");
     command.add_flag("--census", options.census,
                      "Draw once more with every target RGBA32F and count NaN and inf; exit 1 when there is one");
@@ -88,6 +69,7 @@ DrawnScene draw_with_options(GraphicsDevice& device, const std::string& scene, c
     drawn.result = perf::draw_scene(device.gl(), device.caps(), opened.scene, opened.view, opened.wishes, request);
     perf::FrameReport& report = drawn.result.report;
     report.scene = opened.label;
+    report.camera = camera_name(opened);
     report.context = device.context().description();
     if (drawing.cost) {
         request.between("counting " + scene);
@@ -97,23 +79,25 @@ DrawnScene draw_with_options(GraphicsDevice& device, const std::string& scene, c
     return drawn;
 }
 
+int budget_verdict(const perf::BudgetTable& budget, const std::string& scene) {
+    const auto tell = [&](perf::Verdict verdict, const std::string& sentence) {
+        if (verdict == perf::Verdict::over) complain("failed: " + scene + ": " + sentence + "\n");
+        if (verdict == perf::Verdict::warned) complain("warning: " + scene + ": " + sentence + "\n");
+    };
+    for (const perf::BudgetLine& line : budget.lines) tell(line.verdict, line.name + " is " + line.verdict_text);
+    for (const perf::LimitLine& line : budget.limits) {
+        tell(line.verdict, fmt::format("{} {} is {} (limit {})", line.name, line.value, line.verdict_text, line.limit));
+    }
+    return budget.exceeded() ? 1 : 0;
+}
+
 int verdict(const DrawnScene& drawn) {
     int code = 0;
     const auto fail = [&](const std::string& sentence) {
         complain("failed: " + sentence + "\n");
         code = 1;
     };
-    for (const perf::BudgetLine& line : drawn.budget.lines) {
-        if (line.verdict == perf::Verdict::over) {
-            fail(fmt::format("{}: {} is {}", drawn.result.report.scene, line.name, line.verdict_text));
-        }
-    }
-    for (const perf::LimitLine& line : drawn.budget.limits) {
-        if (line.verdict == perf::Verdict::over) {
-            fail(fmt::format("{}: {} {} is {} (limit {})", drawn.result.report.scene, line.name, line.value,
-                             line.verdict_text, line.limit));
-        }
-    }
+    code = budget_verdict(drawn.budget, drawn.result.report.scene);
     for (const CensusRow& row : drawn.result.report.census.value_or(std::vector<CensusRow>{})) {
         if (row.nan + row.inf > 0) {
             fail(

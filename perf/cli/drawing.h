@@ -38,6 +38,9 @@ struct DrawnScene {
                                            const SceneOptions& options, const DrawingOptions& drawing,
                                            const perf::DrawRequest& request);
 
+/// Tells what is over on standard error: "failed: ..." and "warning: ...". 1 when something fails, else 0.
+[[nodiscard]] int budget_verdict(const perf::BudgetTable& budget, const std::string& scene);
+
 /// 1 when a judged limit was exceeded or the census found NaN or inf, with a sentence on standard error; else 0.
 [[nodiscard]] int verdict(const DrawnScene& drawn);
 

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "content/content.h"
 #include "engine/frame/effect_card.h"
 #include "perf/cli/command.h"
 #include "perf/cli/terminal.h"
@@ -20,7 +21,21 @@ std::string field(const char* title, std::string_view text, std::size_t indent) 
            perf::wrapped(fmt::format("{}: {}", title, text), kLineWidth - indent, indent + 4) + "\n";
 }
 
-std::string card_text(const EffectCard& card) {
+/// At 1280x720 in half arithmetic, by the table of prices; empty: the table has none.
+std::string prices_text(const EffectCard& card, Tier tier, const CostTable& table) {
+    constexpr double kMpixels720p = 0.9216;
+    std::string text;
+    for (const std::string& device : table.devices()) {
+        const EffectPrice* price = table.find(card.name, tier, Arithmetic::half, device);
+        if (price == nullptr) continue;
+        const double ms = price->fixed_ms + price->ms_per_mpixel * kMpixels720p;
+        text += fmt::format("{}{} {} ms ({}..{})", text.empty() ? "" : ", ", device, perf::ms_text(ms),
+                            perf::ms_text(ms * price->least), perf::ms_text(ms * price->most));
+    }
+    return text;
+}
+
+std::string card_text(const EffectCard& card, const CostTable& table) {
     std::string text = std::string(card.name) + "\n";
     text += field("purpose", card.purpose, 2);
     text += field("kind", name(card.kind), 2);
@@ -32,6 +47,8 @@ std::string card_text(const EffectCard& card) {
         text += fmt::format("  {}\n", halfframe::name(static_cast<Tier>(index)));
         text += field("seen", tier.eye, 4);
         text += field("writes", tier.targets, 4);
+        if (const std::string prices = prices_text(card, static_cast<Tier>(index), table); !prices.empty())
+            text += field("modelled, 1280x720, half", prices, 4);
         for (const ShaderVariant& variant : tier.shaders) {
             text += field("shader",
                           fmt::format("{} + {}{}{}", variant.vertex, variant.fragment,
@@ -79,9 +96,10 @@ public:
     int run() override {
         nlohmann::ordered_json all = nlohmann::ordered_json::array();
         std::string text;
+        const CostTable table = content::cost_table();
         for (const EffectCard* card : all_effects()) {
             all.push_back(card_json(*card));
-            text += (text.empty() ? "" : "\n") + card_text(*card);
+            text += (text.empty() ? "" : "\n") + card_text(*card, table);
         }
         if (json_) {
             print_json(all);

@@ -3,8 +3,10 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "content/content.h"
 #include "engine/frame/effect_card.h"
 #include "perf/cli/command.h"
+#include "perf/cli/scene_fit.h"
 #include "perf/cli/scene_options.h"
 #include "perf/cli/terminal.h"
 #include "perf/report/json_report.h"
@@ -17,8 +19,10 @@ namespace {
 class PlanCommand : public Command {
 public:
     explicit PlanCommand(CLI::App& app) {
-        CLI::App& command = *app.add_subcommand(
-            "plan", "Shows the passes, targets and memory of a frame, and why each effect is in or out; draws nothing");
+        CLI::App& command = *app.add_subcommand("plan",
+                                                "Shows the passes, targets and memory of a frame, what it is estimated "
+                                                "to cost, and why each effect is in or out; "
+                                                "draws nothing");
         command.add_option("SCENE", scene_, "A .gltf or .glb file, or a built-in scene (halfframe scenes)")->required();
         add_scene_options(command, options_);
         command.add_flag("--json", json_, "Standard output is one JSON value; everything else goes to standard error");
@@ -42,6 +46,7 @@ public:
         progress.clear();
         const FramePlan plan = plan_frame(opened.scene, opened.view, opened.wishes, device.caps(), all_effects());
         const std::optional<std::string> broken = broken_rule(plan, device.caps());
+        const CostTable table = content::cost_table();
         stop_if_interrupted();
         for (const std::vector<std::string>* notices : {&opened.scene.notices, &plan.notices}) {
             for (const std::string& sentence : *notices) {
@@ -56,16 +61,22 @@ public:
             for (const Animation& animation : opened.scene.animations) {
                 json["animations"].push_back({{"name", animation.name}, {"duration_s", animation.duration_s}});
             }
+            json["estimate"] = estimate_json(plan, table, priced());
             json["broken_rule"] = broken ? nlohmann::ordered_json(*broken) : nlohmann::ordered_json(nullptr);
             print_json(json);
         } else {
-            print(perf::plan_text(plan) + "\n" + animations_text(opened.scene) +
-                  (broken ? "broken rule: " + *broken : "no rule is broken") + "\n");
+            print(perf::plan_text(plan) + "\n" + estimate_text(plan, table, priced()) + "\n" +
+                  animations_text(opened.scene) + (broken ? "broken rule: " + *broken : "no rule is broken") + "\n");
         }
         return broken ? 1 : 0;
     }
 
 private:
+    /// Half unless full was asked for, whatever runs fast here.
+    [[nodiscard]] Arithmetic priced() const {
+        return options_.arithmetic == "full" ? Arithmetic::full : Arithmetic::half;
+    }
+
     static std::string animations_text(const Scene& scene) {
         if (scene.animations.empty()) {
             return {};

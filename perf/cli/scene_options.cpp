@@ -14,6 +14,7 @@
 #include "engine/frame/effect_card.h"
 #include "engine/frame/pose.h"
 #include "perf/cli/cache_folder.h"
+#include "perf/cli/scene_fit.h"
 #include "perf/cli/scene_light.h"
 #include "perf/cli/scene_settings.h"
 #include "perf/cli/spelling.h"
@@ -307,6 +308,12 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
             "EFFECT.on=0|1 (in or out, whatever the scene calls for)")
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
+    command
+        .add_option(
+            "--fit", options.fit,
+            "Choose the best tiers whose estimate fits a frame on ps3, x360 or es2_class, in milliseconds "
+            "(33.3), at most those of --tier; a notice says what was given up. halfframe plan shows the estimate")
+        ->type_name("DEVICE[=MS]");
 }
 
 void check_options(const SceneOptions& options) {
@@ -330,6 +337,7 @@ void check_options(const SceneOptions& options) {
     if (options.fov_y_deg && !(*options.fov_y_deg >= 0.1 && *options.fov_y_deg <= 179.0)) {
         throw Error(Fault::usage, fmt::format("--fov-y {}: degrees from 0.1 to 179", *options.fov_y_deg));
     }
+    if (!options.fit.empty()) (void)parse_fit(options.fit, Arithmetic::half);
     Scene scene;
     View view;
     Wishes wishes;
@@ -361,7 +369,36 @@ OpenedScene open_with_options(const std::string& scene, const SceneOptions& opti
     for (const std::string& setting : options.settings) {
         apply(parse_setting(setting), opened.scene, opened.view, opened.wishes);
     }
+    fit_to_budget(opened, options, caps);
     return opened;
+}
+
+std::vector<std::string> camera_names(const Scene& scene) {
+    std::vector<std::string> names;
+    for (std::size_t index = 0; index < scene.cameras.size(); ++index)
+        names.push_back(scene.cameras[index].name.empty() ? std::to_string(index) : scene.cameras[index].name);
+    return names;
+}
+
+std::string camera_name(const OpenedScene& opened) {
+    return opened.camera < 0 ? std::string() : camera_names(opened.scene).at(static_cast<std::size_t>(opened.camera));
+}
+
+void wish(OpenedScene& opened, const SceneOptions& options) {
+    opened.wishes = parse_wishes(options);
+    for (const std::string& setting : options.settings)
+        apply(parse_setting(setting), opened.scene, opened.view, opened.wishes);
+}
+
+void look_through(OpenedScene& opened, const SceneOptions& options, const std::string& camera) {
+    SceneOptions chosen = options;
+    chosen.camera = camera;
+    const Size size = parse_size(options.size);
+    const Box box = world_box(opened.scene);
+    const Camera seen = tightened(choose_camera(opened, chosen, size, box), box);
+    opened.view = view_of(seen, size.width, size.height);
+    for (const std::string& setting : options.settings)
+        apply(parse_setting(setting), opened.scene, opened.view, opened.wishes);
 }
 
 View moved_view(const OpenedScene& opened) {
@@ -428,6 +465,7 @@ std::vector<std::string> option_words(const SceneOptions& options) {
     for (const std::string& setting : options.settings) {
         add("--set", setting, "");
     }
+    add("--fit", options.fit, "");
     return words;
 }
 

@@ -34,10 +34,11 @@ struct SceneOptions {
     std::string eye;
     std::string target;
     std::optional<double> fov_y_deg;
-    std::optional<double> time_s;  ///< empty and no animation: the rest pose
-    std::string animation;         ///< name or number; empty: the first, if a time is given
+    std::optional<double> time_s;       ///< empty and no animation: the rest pose
+    std::string animation;              ///< name or number; empty: the first, if a time is given
     std::optional<std::uint32_t> seed;  ///< empty: the scene's own, if it is made from one
     std::vector<std::string> settings;
+    std::string fit;  ///< "ps3=33.3": tiers that fit; empty: as wished
 };
 
 /// Adds the options to a subcommand; `options` outlives it.
@@ -66,6 +67,18 @@ struct Sequence {
 [[nodiscard]] OpenedScene open_with_options(const std::string& scene, const SceneOptions& options, const gl::Caps& caps,
                                             const std::function<void(const std::string&)>& between,
                                             const Sequence& sequence = {});
+
+/// The name of the camera that the view is of; its number where it has none; empty where it is not the scene's.
+[[nodiscard]] std::string camera_name(const OpenedScene& opened);
+
+/// Every camera of the scene by name, or by number.
+[[nodiscard]] std::vector<std::string> camera_names(const Scene& scene);
+
+/// Wishes anew what the options wish: their tiers may have changed.
+void wish(OpenedScene& opened, const SceneOptions& options);
+
+/// The same scene seen by another of its cameras; Error(usage) with the nearest for one that it does not have.
+void look_through(OpenedScene& opened, const SceneOptions& options, const std::string& camera);
 
 /// The view of an opened scene after it was posed: its camera may have moved.
 [[nodiscard]] View moved_view(const OpenedScene& opened);

@@ -11,6 +11,7 @@
 
 #include "engine/error.h"
 #include "perf/cost/shader_counts.h"
+#include "perf/shader_ir/loop_rounds.h"
 
 namespace halfframe::cost {
 namespace {
@@ -69,59 +70,18 @@ private:
         }
     }
 
-    /// `for (i = a; i < b; i += c)` with numbers for a, b, c.
     void count_rounds(Loop& loop, std::uint32_t line) {
-        std::optional<double> rounds;
+        const std::optional<double> rounds = shader_ir::written_rounds(module_, function_, loop.header, loop.merge);
         int exits = 0;
-        for (std::size_t at = loop.header; at < std::max(loop.merge, loop.header + 1) && at < count_; ++at) {
-            const Block& block = function_.blocks[at];
-            for (const Id target : targets_of(block.instructions.back()))
+        for (std::size_t at = loop.header; at < std::max(loop.merge, loop.header + 1) && at < count_; ++at)
+            for (const Id target : targets_of(function_.blocks[at].instructions.back()))
                 if (function_.block_at.at(target) == loop.merge) ++exits;
-            for (const Instruction& one : block.instructions)
-                if (const auto found = rounds_by(one, loop)) rounds = rounds ? std::min(*rounds, *found) : found;
-        }
         loop.most_rounds = rounds.value_or(kUnknownRounds);
         loop.mean_rounds = exits > 1 ? 0.5 * (loop.most_rounds + 1.0) : loop.most_rounds;
         notices_.push_back(rounds ? fmt::format("{}: a loop of at most {} rounds stays a loop; {} on average",
                                                 module_.place(line), *rounds, loop.mean_rounds)
                                   : fmt::format("{}: the rounds of a loop are not known; taken as {}, {} on average",
                                                 module_.place(line), kUnknownRounds, loop.mean_rounds));
-    }
-
-    std::optional<double> literal(Id id) const {
-        const auto found = module_.constants.find(id);
-        return found != module_.constants.end() && found->second.scalars.size() == 1
-                   ? std::optional<double>(found->second.scalars[0])
-                   : std::nullopt;
-    }
-
-    std::optional<double> rounds_by(const Instruction& compare, const Loop& loop) const {
-        const bool below = compare.op == spv::OpSLessThan || compare.op == spv::OpFOrdLessThan;
-        const bool up_to = compare.op == spv::OpSLessThanEqual || compare.op == spv::OpFOrdLessThanEqual;
-        if (!below && !up_to) return std::nullopt;
-        const auto end = literal(compare.operands.at(1));
-        for (const Instruction& phi : function_.blocks[loop.header].instructions) {
-            if (phi.op != spv::OpPhi || phi.result != compare.operands[0] || !end) continue;
-            std::optional<double> start, step;
-            for (std::size_t i = 0; i < phi.operands.size(); i += 2) {
-                if (const auto value = literal(phi.operands[i])) start = value;
-                else step = step_of(phi.operands[i], phi.result);
-            }
-            if (start && step && *step > 0.0)
-                return std::max(0.0, std::floor((*end - *start) / *step + (up_to ? 1.0 : 1.0 - 1e-9)));
-        }
-        return std::nullopt;
-    }
-
-    std::optional<double> step_of(Id next, Id phi) const {
-        for (const Block& block : function_.blocks) {
-            for (const Instruction& one : block.instructions) {
-                if (one.result != next || (one.op != spv::OpIAdd && one.op != spv::OpFAdd)) continue;
-                if (one.operands[0] == phi) return literal(one.operands[1]);
-                if (one.operands[1] == phi) return literal(one.operands[0]);
-            }
-        }
-        return std::nullopt;
     }
 
     /// The way back to a header is the way out of the loop: rounds are counted apart.

@@ -31,27 +31,47 @@ Json pass_json(const PassCost& pass, double other_ms) {
             {"temporaries", pass.temporaries}};
 }
 
-Json counts_json(const PassWork& pass) {
-    DrawWork sum;
-    Temporaries most;
-    for (const DrawWork& draw : pass.draws) {
-        sum.vertices += draw.vertices;
-        sum.triangles += draw.triangles;
-        sum.fragments_shaded += draw.fragments_shaded;
-        sum.fragments_written += draw.fragments_written;
-        if (draw.temporaries.weighted() > most.weighted()) most = draw.temporaries;
-    }
-    return {{"pass", pass.name},
-            {"draws", pass.draws.size()},
+/// By the words of budget_counters().
+Json counters_json(const WorkSum& sum, int programs) {
+    return {{"draws", static_cast<std::int64_t>(sum.draws)},
             {"vertices", sum.vertices},
             {"triangles", sum.triangles},
             {"fragments_shaded", sum.fragments_shaded},
-            {"samples_written", sum.fragments_written},
-            {"texture_bytes", pass.texture_bytes},
-            {"full_temporaries", most.full},
-            {"half_temporaries", most.half},
-            {"switches_target", pass.switches_target},
-            {"resolves", (pass.color && pass.color->resolved ? 1 : 0) + (pass.depth && pass.depth->resolved ? 1 : 0)}};
+            {"samples_written", sum.samples_written},
+            {"programs", programs},
+            {"target_switches", static_cast<std::int64_t>(sum.target_switches)},
+            {"resolves", static_cast<std::int64_t>(sum.resolves)}};
+}
+
+Json counts_json(const PassWork& pass) {
+    WorkSum sum;
+    sum.add(pass);
+    Json json{{"pass", pass.name}};
+    json.update(counters_json(sum, pass.programs));
+    json["copies"] = pass.copies;
+    json["texture_bytes"] = pass.texture_bytes;
+    json["full_temporaries"] = sum.most.full;
+    json["half_temporaries"] = sum.most.half;
+    return json;
+}
+
+Json frame_counts_json(const FrameCost& cost) {
+    Json json = counters_json(cost.sum(), cost.programs);
+    json["target_bytes"] = cost.plan.target_bytes();
+    json["texture_bytes"] = cost.texture_bytes;
+    json["bytes_per_pixel"] = cost.plan.bytes_per_pixel();
+    return json;
+}
+
+Json decisions_json(const FramePlan& plan) {
+    Json decisions = Json::array();
+    for (const EffectDecision& decision : plan.effects) {
+        decisions.push_back({{"effect", decision.effect},
+                             {"in", decision.in},
+                             {"tier", halfframe::name(decision.tier)},
+                             {"why", decision.why}});
+    }
+    return decisions;
 }
 
 Json device_json(const DeviceCost& device) {
@@ -63,6 +83,7 @@ Json device_json(const DeviceCost& device) {
         effects.push_back({{"effect", effect.effect},
                            {"ms", effect.ms},
                            {"marginal_ms", effect.marginal_ms},
+                           {"other_arithmetic_ms", effect.other_ms},
                            {"bound", effect.bound}});
     }
     Json constants = Json::object();
@@ -134,6 +155,7 @@ Json cost_json(const FrameCost& cost) {
     Json devices = Json::array();
     for (const DeviceCost& device : cost.devices) devices.push_back(device_json(device));
     return {{"scene", cost.scene},
+            {"camera", cost.camera},
             {"width", cost.plan.width},
             {"height", cost.plan.height},
             {"tier", halfframe::name(cost.plan.tier)},
@@ -142,7 +164,9 @@ Json cost_json(const FrameCost& cost) {
             {"model_version", kModelVersion},
             {"compiler", cost.compiler},
             {"modelled", kModelledWords},
+            {"frame_counts", frame_counts_json(cost)},
             {"counts", counts},
+            {"effects", decisions_json(cost.plan)},
             {"devices", devices},
             {"notices", cost.notices}};
 }

@@ -9,15 +9,24 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "perf/cost/frame_cost.h"
+#include "perf/report/budget_table.h"
 
 namespace halfframe::cost {
 
-/// Counts, then a table for each device, then the effects over all devices, then half against full.
-[[nodiscard]] std::string cost_text(const FrameCost& cost);
-/// As content/schemas/cost.schema.json describes.
+/// Counts, then a table for each device (half beside full), then the effects over all devices, then `budget`, if any.
+[[nodiscard]] std::string cost_text(const FrameCost& cost, const perf::BudgetTable* budget);
+/// As content/schemas/cost.schema.json describes, without its budget.
 [[nodiscard]] nlohmann::ordered_json cost_json(const FrameCost& cost);
-/// One line a device and pass, under a line of names.
-[[nodiscard]] std::string cost_csv(const FrameCost& cost);
+/// The names of the fields, then one line a view, device and pass. `views`: [cost_json(), ...].
+[[nodiscard]] std::string csv_of(const nlohmann::ordered_json& views);
+/// In quotes where a comma, a quote or an end of line asks for them (RFC 4180).
+[[nodiscard]] std::string csv_field(const std::string& text);
+
+/// A frame's cost as a report that was not drawn: what budget_table() and html_page() take.
+[[nodiscard]] perf::FrameReport report_of(const FrameCost& cost);
+
+/// A table of several views of a scene, one line each, from their JSON: [cost_json() with "budget", ...].
+[[nodiscard]] std::string overview_text(const nlohmann::ordered_json& views);
 
 /// What was measured here, to stand beside the modelled devices in a trace.
 struct MeasuredPasses {

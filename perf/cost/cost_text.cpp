@@ -30,21 +30,20 @@ std::string counts_text(const FrameCost& cost) {
                      {"samples written", Align::right},
                      {"texture bytes", Align::right},
                      {"temporaries", Align::right}});
+    const auto add = [&](const std::string& name, const WorkSum& sum, double texture_bytes) {
+        table.add_row({name, whole(sum.draws), whole(sum.vertices), whole(sum.triangles), whole(sum.fragments_shaded),
+                       whole(sum.samples_written), bytes_text(static_cast<std::size_t>(texture_bytes)),
+                       fmt::format("{} full {} half", sum.most.full, sum.most.half)});
+    };
+    double texture_bytes = 0.0;
     for (const PassWork& pass : cost.works) {
-        DrawWork sum;
-        Temporaries most;
-        for (const DrawWork& draw : pass.draws) {
-            sum.vertices += draw.vertices;
-            sum.triangles += draw.triangles;
-            sum.fragments_shaded += draw.fragments_shaded;
-            sum.fragments_written += draw.fragments_written;
-            if (draw.temporaries.weighted() > most.weighted()) most = draw.temporaries;
-        }
-        table.add_row({pass.name, std::to_string(pass.draws.size()), whole(sum.vertices), whole(sum.triangles),
-                       whole(sum.fragments_shaded), whole(sum.fragments_written),
-                       bytes_text(static_cast<std::size_t>(pass.texture_bytes)),
-                       fmt::format("{} full {} half", most.full, most.half)});
+        WorkSum sum;
+        sum.add(pass);
+        add(pass.name, sum, pass.texture_bytes);
+        texture_bytes += pass.texture_bytes;
     }
+    table.add_rule();
+    add("frame", cost.sum(), texture_bytes);
     return table.text();
 }
 
@@ -101,6 +100,7 @@ std::string effects_text(const FrameCost& cost) {
     for (const DeviceCost& device : cost.devices) {
         columns.push_back({device.profile.name, Align::right});
         columns.push_back({"marginal", Align::right});
+        columns.push_back({other_name(cost.arithmetic), Align::right});
     }
     TextTable table(columns);
     for (const EffectCost& effect : cost.devices.empty() ? std::vector<EffectCost>{} : cost.devices.front().effects) {
@@ -109,23 +109,38 @@ std::string effects_text(const FrameCost& cost) {
             const EffectCost* here = device.find(effect.effect);
             row.push_back(ms_text(here->ms));
             row.push_back(here->marginal_ms != 0.0 ? ms_text(here->marginal_ms) : "-");
+            row.push_back(ms_text(here->other_ms));
         }
         table.add_row(row);
     }
     return table.text();
 }
 
+/// Limits that fit the frame, and the rows of effects that are over in a modelled column.
+std::string budget_text(const perf::BudgetTable& budget) {
+    TextTable limits(
+        {{"budget " + budget.budget}, {"here", Align::right}, {"limit", Align::right}, {"level"}, {"verdict"}});
+    for (const perf::LimitLine& line : budget.limits)
+        limits.add_row({line.name, line.value, line.limit, halfframe::name(line.level), line.verdict_text});
+    std::string text = limits.text();
+    std::string rows;
+    for (const perf::BudgetLine& line : budget.lines)
+        if (!line.modelled_over.empty()) rows += fmt::format("{}: {}\n", line.name, line.modelled_over);
+    return text + (rows.empty() ? "" : "\nrows that are over:\n" + rows);
+}
+
 std::string paragraph(const std::string& text) { return perf::wrapped(text, kLineWidth, 0) + "\n"; }
 
 }  // namespace
 
-std::string cost_text(const FrameCost& cost) {
+std::string cost_text(const FrameCost& cost, const perf::BudgetTable* budget) {
     FramePlan shown = cost.plan;
     shown.arithmetic = cost.arithmetic;
-    std::string text = fmt::format("cost of {}: {}\n", cost.scene, perf::configuration_text(shown));
+    std::string text = fmt::format("cost of {}: {}\n", cost.title(), perf::configuration_text(shown));
     text += fmt::format("model version {}, {}\n\n", kModelVersion, cost.compiler) + counts_text(cost);
     for (const DeviceCost& device : cost.devices) text += "\n" + device_text(device, cost.arithmetic);
     text += "\n" + effects_text(cost) + "\n";
+    if (budget != nullptr) text += budget_text(*budget) + "\n";
     text += paragraph(
         "Milliseconds. Band: every slot filled, to a third of the slots empty. Branches: all fragments take the short "
         "sides, to all take the long ones; ms has half of them on each side. Of it: the unit that binds, alone. "
@@ -133,25 +148,6 @@ std::string cost_text(const FrameCost& cost) {
     text += paragraph(kModelledWords);
     for (const std::string& notice : cost.notices) text += paragraph("notice: " + notice);
     return text;
-}
-
-std::string cost_csv(const FrameCost& cost) {
-    std::string csv =
-        "scene,arithmetic,device,pass,ms,low_ms,high_ms,shortest_ms,longest_ms,bound,fixed_ms,resolve_ms,"
-        "memory_bytes,edram_tiles,edram_replays,work_per_fragment,temporaries,other_arithmetic_ms\n";
-    for (const DeviceCost& device : cost.devices) {
-        for (std::size_t i = 0; i < device.passes.size(); ++i) {
-            const PassCost& pass = device.passes[i];
-            csv += fmt::format(
-                "{},{},{},{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{},{:.6f},{:.6f},{:.0f},{},{},{:.4f},"
-                "{:.1f},{:.6f}\n",
-                cost.scene, halfframe::name(cost.arithmetic), device.profile.name, pass.name, pass.ms, pass.low_ms,
-                pass.high_ms, pass.shortest_ms, pass.longest_ms, pass.bound, pass.fixed_ms, pass.resolve_ms,
-                pass.memory_bytes, pass.edram_tiles, pass.edram_replays, pass.passes, pass.temporaries,
-                device.other_passes[i].ms);
-        }
-    }
-    return csv;
 }
 
 }  // namespace halfframe::cost

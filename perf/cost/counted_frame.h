@@ -11,6 +11,7 @@
 #include "engine/gl/program.h"
 #include "perf/cost/draw_recorder.h"
 #include "perf/cost/pass_work.h"
+#include "perf/shader_ir/stage_cache.h"
 
 namespace halfframe::cost {
 
@@ -30,12 +31,15 @@ struct CountedStage {
     ShaderCounts counts;
 };
 
-/// Counts each stage once.
+/// Counts each stage once; with a cache, compiles it once on a machine.
 class ShaderLibrary {
 public:
+    ShaderLibrary() = default;
+    explicit ShaderLibrary(shader_ir::StageCache cache) : cache_(std::move(cache)) {}
     const CountedStage& stage(gl::ProgramDescription description, gl::Stage stage, gl::Arithmetic arithmetic);
 
 private:
+    shader_ir::StageCache cache_;
     std::map<std::string, std::unique_ptr<CountedStage>> by_text_;
 };
 

@@ -5,10 +5,14 @@
 #include <string_view>
 #include <vector>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "content/data_files.h"
 #include "engine/frame/effect_card.h"
+#include "engine/gl/fingerprint.h"
 #include "perf/cost/counted_frame.h"
+#include "perf/cost/insertion_rows.h"
 #include "perf/cost/model.h"
 #include "perf/shader_ir/compile.h"
 
@@ -41,6 +45,61 @@ Json counts_json(const ShaderCounts& counts, const Profile& ps3) {
             {"branches", counts.branches}};
 }
 
+/// What the program with the insertions has above the one without; counts of both stages.
+class Marginal {
+public:
+    Marginal(ShaderLibrary& library, const InsertionRow& row, Tier tier, gl::Arithmetic arithmetic, bool all)
+        : arithmetic_(arithmetic),
+          without_(describe_variant(*row.host, row.variant, tier, arithmetic, true,
+                                    all ? words_of(row.variant.defines) : std::vector<std::string_view>{})),
+          with_(without_),
+          library_(library) {
+        with_.insertions = row.insertions;
+    }
+
+    [[nodiscard]] Json json(const Profile& ps3) const {
+        const Json without = counts_json(counts(without_, gl::Stage::fragment), ps3);
+        Json more = counts_json(counts(with_, gl::Stage::fragment), ps3);
+        for (auto& [key, value] : more.items()) {
+            if (value.is_number_float()) value = value.get<double>() - without.at(key).get<double>();
+            else value = value.get<int>() - without.at(key).get<int>();
+        }
+        const auto vertex = [&](const gl::ProgramDescription& one) {
+            return co_issued(counts(one, gl::Stage::vertex).weighted.work);
+        };
+        more["vertex_instructions"] = vertex(with_) - vertex(without_);
+        return more;
+    }
+
+private:
+    [[nodiscard]] const ShaderCounts& counts(const gl::ProgramDescription& one, gl::Stage stage) const {
+        return library_.stage(one, stage, arithmetic_).counts;
+    }
+
+    gl::Arithmetic arithmetic_;
+    gl::ProgramDescription without_, with_;
+    ShaderLibrary& library_;
+};
+
+void add_marginal_rows(ShaderLibrary& library, const Profile& ps3, Json& rows) {
+    const auto by_tier = insertion_rows();
+    for (std::size_t tier = 0; tier < by_tier.size(); ++tier) {
+        for (const InsertionRow& insertion : by_tier[tier]) {
+            for (const gl::Arithmetic arithmetic : {gl::Arithmetic::half, gl::Arithmetic::full}) {
+                for (const bool all : {false, true}) {
+                    if (all && insertion.variant.defines.empty()) continue;
+                    Json row{
+                        {"effect", insertion.effect->name},       {"tier", halfframe::name(static_cast<Tier>(tier))},
+                        {"fragment", insertion.variant.fragment}, {"arithmetic", halfframe::name(arithmetic)},
+                        {"defines", all ? "all" : "none"},        {"marginal", true}};
+                    row.update(Marginal(library, insertion, static_cast<Tier>(tier), arithmetic, all).json(ps3));
+                    rows.push_back(std::move(row));
+                }
+            }
+        }
+    }
+}
+
 }  // namespace
 
 std::string effect_table_text() {
@@ -70,6 +129,7 @@ std::string effect_table_text() {
             }
         }
     }
+    add_marginal_rows(library, ps3, rows);
     // One row a line, so that a change of one shader is a change of a few lines.
     std::ostringstream text;
     text << "{\n  \"model_version\": " << kModelVersion
@@ -78,6 +138,13 @@ std::string effect_table_text() {
         text << "    " << rows[i].dump() << (i + 1 < rows.size() ? ",\n" : "\n");
     text << "  ]\n}\n";
     return text.str();
+}
+
+std::string counts_fingerprint(const std::string& effects) {
+    std::uint64_t hash = gl::fingerprint(effects);
+    for (const content::DataFile& file : content::data_files())
+        if (std::string_view(file.path).starts_with("profiles/")) hash = gl::fingerprint(file.text, hash);
+    return fmt::format("{:016x}", hash);
 }
 
 }  // namespace halfframe::cost

@@ -15,6 +15,7 @@ struct EffectCost {
     std::string effect;
     double ms = 0.0;
     double marginal_ms = 0.0;  ///< the part of `ms` in others' passes: the surface with it less the surface without
+    double other_ms = 0.0;     ///< `ms` in the other arithmetic
     std::string bound;         ///< of the pass that takes most of it
 };
 
@@ -30,6 +31,7 @@ struct DeviceCost {
 
 struct FrameCost {
     std::string scene;
+    std::string camera;  ///< of the scene; empty: one without a name, or none of its own
     gl::Arithmetic arithmetic = gl::Arithmetic::half;
     FramePlan plan;
     std::vector<PassWork> works;
@@ -37,6 +39,11 @@ struct FrameCost {
     std::vector<DeviceCost> devices;
     std::vector<std::string> notices;
     std::string compiler;
+    int programs = 0;  ///< distinct ones that drew
+    std::size_t texture_bytes = 0;
+    [[nodiscard]] WorkSum sum() const;  ///< of all passes
+    /// "street, rooftop": what people call it.
+    [[nodiscard]] std::string title() const { return camera.empty() ? scene : scene + ", camera " + camera; }
 };
 
 [[nodiscard]] FrameCost frame_cost(const CountedFrame& frame, ShaderLibrary& library, gl::Arithmetic arithmetic,

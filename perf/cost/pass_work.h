@@ -72,6 +72,22 @@ struct PassWork {
     std::optional<TargetWork> depth;
     double texture_bytes = 0.0;   ///< distinct bytes that are fetched
     bool switches_target = true;  ///< the pass before drew into others
+    int copies = 0;               ///< of `draws`: copies between targets, which no shader sees
+    int programs = 0;             ///< distinct ones of `draws`
+    [[nodiscard]] int resolves() const { return (color && color->resolved) + (depth && depth->resolved); }
+};
+
+/// Sums over the draws of a pass, or of several.
+struct WorkSum {
+    double draws = 0.0;  ///< without copies
+    double vertices = 0.0;
+    double triangles = 0.0;
+    double fragments_shaded = 0.0;
+    double samples_written = 0.0;
+    double target_switches = 0.0;
+    double resolves = 0.0;
+    Temporaries most;  ///< of any draw
+    void add(const PassWork& pass);
 };
 
 }  // namespace halfframe::cost

@@ -1,5 +1,6 @@
 // Joins the draws of a frame with the counts of their shaders.
 #include <algorithm>
+#include <set>
 
 #include "engine/error.h"
 #include "perf/cost/counted_frame.h"
@@ -89,8 +90,14 @@ public:
             if (pass.color) work.color = residence.work(i, *pass.color, pass.start_color);
             if (pass.depth) work.depth = residence.work(i, *pass.depth, pass.start_depth);
             texture_bytes_.clear();
-            for (const RecordedDraw& draw : frame_.draws)
-                if (draw.pass == pass.name) work.draws.push_back(draw_work(draw, pass, work));
+            std::set<std::uint32_t> programs;
+            for (const RecordedDraw& draw : frame_.draws) {
+                if (draw.pass != pass.name) continue;
+                work.draws.push_back(draw_work(draw, pass, work));
+                if (draw.program == 0) ++work.copies;
+                else programs.insert(draw.program);
+            }
+            work.programs = static_cast<int>(programs.size());
             if (pass.resolves) {
                 const Target& source = frame_.plan.targets[static_cast<std::size_t>(*pass.resolves)];
                 work.texture_bytes += static_cast<double>(source.bytes());
@@ -123,14 +130,10 @@ private:
         // What covers the screen is known without drawing it.
         if (pass.full_screen && around.color && !around.depth)
             work.fragments_shaded = work.fragments_written = around.color->pixels();
-        const auto program = frame_.programs.find(draw.program);
-        expect(program != frame_.programs.end(), "a draw with a program that the renderer does not know");
-        const gl::ProgramDescription description =
-            without_.empty() ? program->second : without_insertions(program->second, frame_.plan, without_);
-        const ShaderCounts& vertex = library_.stage(description, gl::Stage::vertex, arithmetic_).counts;
-        work.vertex = vertex.weighted.work;
-        work.attributes = vertex.attributes;
-        const ShaderCounts& fragment = library_.stage(description, gl::Stage::fragment, arithmetic_).counts;
+        const auto [vertex_counts, fragment_counts] = stages_of(draw.program);
+        work.vertex = vertex_counts->weighted.work;
+        work.attributes = vertex_counts->attributes;
+        const ShaderCounts& fragment = *fragment_counts;
         work.temporaries = fragment.temporaries;
         const std::array paths{&fragment.weighted, &fragment.shortest, &fragment.longest};
         for (std::size_t way = 0; way < paths.size(); ++way)
@@ -138,6 +141,24 @@ private:
         if (work.writes_color || fragment.discards) count_bytes(fragment, draw, work);
         else work.fragment.fill({});  // depth alone: no fragment is shaded
         return work;
+    }
+
+    struct StageCounts {
+        const ShaderCounts* vertex = nullptr;
+        const ShaderCounts* fragment = nullptr;
+    };
+
+    /// Of each program once: hundreds of draws share a few dozen.
+    StageCounts stages_of(std::uint32_t name) {
+        const auto [known, added] = stages_.try_emplace(name);
+        if (!added) return known->second;
+        const auto program = frame_.programs.find(name);
+        expect(program != frame_.programs.end(), "a draw with a program that the renderer does not know");
+        const gl::ProgramDescription description =
+            without_.empty() ? program->second : without_insertions(program->second, frame_.plan, without_);
+        known->second = {&library_.stage(description, gl::Stage::vertex, arithmetic_).counts,
+                         &library_.stage(description, gl::Stage::fragment, arithmetic_).counts};
+        return known->second;
     }
 
     static const RecordedTexture* bound(const RecordedDraw& draw, const std::string& sampler) {
@@ -178,6 +199,7 @@ private:
     gl::Arithmetic arithmetic_;
     std::string without_;
     std::map<std::uint32_t, Bytes> texture_bytes_;
+    std::map<std::uint32_t, StageCounts> stages_;  ///< by program
 };
 
 bool same(const gl::Insertion& one, const gl::Insertion& other) {
@@ -205,14 +227,29 @@ const CountedStage& ShaderLibrary::stage(gl::ProgramDescription description, gl:
     description.arithmetic = arithmetic;
     if (arithmetic == gl::Arithmetic::full) description.fragment_highp = true;
     const bool low = description.dialect == gl::Dialect::es100;
-    const std::string key = (low ? "1" : "3") + gl::assemble_stage(description, stage).text;
-    std::unique_ptr<CountedStage>& counted = by_text_[key];
+    description.dialect = gl::Dialect::es300;  // ES 1.00 is counted as its twin
+    const gl::StageText text = gl::assemble_stage(description, stage);
+    std::unique_ptr<CountedStage>& counted = by_text_[(low ? "1" : "3") + text.text];
     if (!counted) {
         counted = std::make_unique<CountedStage>();
-        counted->module = shader_ir::compile(description, stage, shader_ir::Cleaning::optimised);
+        counted->module = shader_ir::compile_kept(text, stage, cache_);
+        counted->module.up_converted = low;
         counted->counts = count_shader(counted->module);
     }
     return *counted;
+}
+
+void WorkSum::add(const PassWork& pass) {
+    draws += static_cast<double>(pass.draws.size()) - pass.copies;
+    target_switches += pass.switches_target ? 1.0 : 0.0;
+    resolves += pass.resolves();
+    for (const DrawWork& draw : pass.draws) {
+        vertices += draw.vertices;
+        triangles += draw.triangles;
+        fragments_shaded += draw.fragments_shaded;
+        samples_written += draw.fragments_written;
+        if (draw.temporaries.weighted() > most.weighted()) most = draw.temporaries;
+    }
 }
 
 std::vector<PassWork> pass_works(const CountedFrame& frame, ShaderLibrary& library, gl::Arithmetic arithmetic,

@@ -2,6 +2,8 @@
 #include "perf/cost/user_shader.h"
 
 #include <algorithm>
+#include <array>
+#include <new>
 #include <regex>
 
 #include <fmt/format.h>
@@ -35,12 +37,51 @@ constexpr const char* kTwinOfData =
     "#define gl_FragData halfframe_fragment_data\n"
     "out mediump vec4 halfframe_fragment_data[4];\n";
 
+/// Words that mean nothing in ES 1.00 and something in ES 3.00: shaders of the former use them as names.
+constexpr auto kLaterWords = std::to_array<std::string_view>(
+    {"texture",     "textureProj", "textureLod",  "textureProjLod", "textureGrad", "textureOffset",
+     "textureSize", "texelFetch",  "round",       "roundEven",      "trunc",       "modf",
+     "isnan",       "isinf",       "sinh",        "cosh",           "tanh",        "asinh",
+     "acosh",       "atanh",       "determinant", "inverse",        "transpose",   "outerProduct",
+     "fma",         "ldexp",       "frexp",       "umulExtended",   "layout",      "centroid",
+     "smooth",      "case",        "uint",        "uvec2",          "uvec3",       "uvec4",
+     "mat2x2",      "mat2x3",      "mat2x4",      "mat3x2",         "mat3x3",      "mat3x4",
+     "mat4x2",      "mat4x3",      "mat4x4",      "sample",         "patch",       "subroutine",
+     "common",      "partition",   "active",      "filter",         "resource",    "buffer",
+     "shared",      "coherent",    "restrict",    "readonly",       "writeonly",   "precise",
+     "image2D",     "bitCount",    "findLSB"});
+constexpr std::string_view kRenamed = "halfframe_1_";
+
+/// ES 1.00 text whose names that ES 3.00 keeps for itself are others. Lines stay where they are.
+std::string with_own_names(const std::string& text) {
+    const auto is_word = [](char letter) {
+        return (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z') ||
+               (letter >= '0' && letter <= '9') || letter == '_';
+    };
+    std::string result;
+    for (std::size_t at = 0; at < text.size();) {
+        std::size_t end = at;
+        while (end < text.size() && is_word(text[end])) ++end;
+        if (end == at) {
+            result += text[at++];
+            continue;
+        }
+        const std::string_view word = std::string_view(text).substr(at, end - at);
+        if (std::ranges::find(kLaterWords, word) != kLaterWords.end()) result += kRenamed;
+        result += word;
+        at = end;
+    }
+    return result;
+}
+
 struct Versioned {
     int version = 100;
     std::string text;  ///< with the #version line emptied, so that lines keep their numbers
 };
 
-Versioned versioned(const std::string& file, const std::string& text) {
+Versioned versioned(const std::string& file, const std::string& original) {
+    constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+    const std::string text = original.starts_with(kByteOrderMark) ? original.substr(kByteOrderMark.size()) : original;
     const std::regex pattern(R"((^|\n)[ \t]*#[ \t]*version[ \t]+(\d+)([^\n]*))");
     std::smatch found;
     if (!std::regex_search(text, found, pattern)) return {100, text};
@@ -83,21 +124,45 @@ const char* name(Precisions precisions) {
     return "";
 }
 
-CountedStage count_user_shader(const std::string& file, const std::string& text, Precisions precisions) {
+namespace {
+
+CountedStage counted_stage(const std::string& file, const std::string& text, Precisions precisions) {
     const Versioned shader = versioned(file, text);
     const bool old = shader.version == 100;
     if (old) shader_ir::check_es100({.text = "#version 100\n#line 1 0\n" + shader.text, .files = {file}});
     gl::StageText stage{.text = "#version 300 es\n", .files = {file}};
+    // Appendix A lets the counter of a loop choose a sampler; later versions ask for this extension.
+    if (old) stage.text += "#extension GL_EXT_gpu_shader5 : enable\n";
     stage.text += precision_words(precisions);
     if (old) {
         stage.text += kTwin;
         if (shader.text.find("gl_FragData") != std::string::npos) stage.text += kTwinOfData;
     }
-    stage.text += "#line 1 0\n" + shader.text;
+    stage.text += "#line 1 0\n" + (old ? with_own_names(shader.text) : shader.text);
     CountedStage counted{.module = shader_ir::compile(stage, gl::Stage::fragment, shader_ir::Cleaning::optimised)};
     counted.module.up_converted = old;
     counted.counts = count_shader(counted.module);
+    for (SamplerUse& use : counted.counts.samplers)
+        if (use.name.starts_with(kRenamed)) use.name.erase(0, kRenamed.size());
     return counted;
+}
+
+}  // namespace
+
+CountedStage count_user_shader(const std::string& file, const std::string& text, Precisions precisions) {
+    try {
+        return counted_stage(file, text, precisions);
+    } catch (const Error&) {
+        throw;
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception& reason) {
+        // A stranger's shader may hold what neither our parser nor SPIRV-Tools knows.
+        throw Error(Fault::check,
+                    fmt::format("{}: compiles, but holds what is not counted ({}); storage buffers, images and atomics "
+                                "of ES 3.10 are not",
+                                file, reason.what()));
+    }
 }
 
 gl::PixelFormat parse_color_format(const std::string& words, const std::string& option) {

@@ -2,46 +2,17 @@
 #include "perf/report/budget_table.h"
 
 #include <algorithm>
+#include <array>
 #include <string_view>
 
 #include <fmt/format.h>
 
 #include "engine/frame/effect_card.h"
+#include "perf/report/budget_limits.h"
 #include "perf/report/text_table.h"
 
 namespace halfframe::perf {
 namespace {
-
-/// Quartiles as PassTimer gives them: by rank, no interpolation.
-PassTimer::Summary summary_of(std::vector<double> samples) {
-    std::sort(samples.begin(), samples.end());
-    const auto at = [&](double part) {
-        return samples[static_cast<std::size_t>(part * static_cast<double>(samples.size() - 1) + 0.5)];
-    };
-    return {.median_ms = at(0.5), .low_ms = at(0.25), .high_ms = at(0.75), .frames = static_cast<int>(samples.size())};
-}
-
-/// The passes of a row together: added frame by frame, since a sum of medians is the median of nothing.
-std::optional<PassTimer::Summary> measured_together(const FrameReport& report, const std::vector<std::size_t>& passes) {
-    if (!report.measurement || passes.empty()) {
-        return std::nullopt;
-    }
-    if (passes.size() == 1) {
-        return report.measurement->passes[passes.front()];
-    }
-    std::vector<double> sums;
-    for (const std::size_t pass : passes) {
-        const auto& samples = report.measurement->samples[pass];
-        sums.resize(std::max(sums.size(), samples.size()), 0.0);
-        for (std::size_t frame = 0; frame < samples.size(); ++frame) {
-            sums[frame] += samples[frame];
-        }
-    }
-    if (sums.empty()) {
-        return std::nullopt;
-    }
-    return summary_of(std::move(sums));
-}
 
 struct Row {
     std::string name;
@@ -104,19 +75,45 @@ void add_modelled(BudgetLine& line, const std::vector<std::string>& effects, con
     }
 }
 
-/// A row names its consoles in words: "PS3", "PS3 and X360".
-void compare_modelled(BudgetLine& line) {
+/// Columns that a row judges: those the budget lists, else the consoles that it names in words ("PS3 and X360").
+std::vector<std::string> judged_columns(const BudgetRow& row) {
+    if (!row.columns.empty()) return row.columns;
     constexpr std::array<const char*, kModelledCount> kWords{"PS3", "X360", "ES2"};
-    const std::optional<double> allowed = line.published_high_ms ? line.published_high_ms
-                                          : line.published_ms    ? line.published_ms
-                                                                 : line.ours_ms;
-    for (std::size_t column = 0; column < kModelledCount; ++column) {
-        const bool named = line.platforms.find(kWords[column]) != std::string::npos;
-        if (!named || !allowed || !line.modelled_ms[column] || *line.modelled_ms[column] <= *allowed) continue;
+    std::vector<std::string> columns{kMeasuredColumn};
+    for (std::size_t column = 0; column < kModelledCount; ++column)
+        if (row.platforms.find(kWords[column]) != std::string::npos) columns.emplace_back(kModelledDevices[column]);
+    return columns;
+}
+
+bool lists(const std::vector<std::string>& columns, std::string_view column) {
+    return std::ranges::find(columns, column) != columns.end();
+}
+
+double allowed_ms(const BudgetRow& row) {
+    return row.published_high_ms.value_or(row.published_ms.value_or(row.ours_ms.value_or(0.0)));
+}
+
+/// Where a modelled figure is above the row's: said always, and an error where the row says so.
+void compare_modelled(BudgetLine& line, const Row& row, const FrameReport& report) {
+    if (row.budget == nullptr || !report.modelled || row.budget->level == BudgetLevel::off) return;
+    for (const std::string& column : judged_columns(*row.budget)) {
+        const ModelledDevice* device = report.modelled->find(column);
+        if (device == nullptr) continue;
+        double ms = 0.0, most_ms = -1.0;
+        std::string bound;
+        for (const ModelledEffect& effect : device->effects) {
+            if (!lists(row.effects, effect.effect)) continue;
+            ms += effect.ms;
+            if (effect.ms > most_ms) bound = effect.bound;
+            most_ms = std::max(most_ms, effect.ms);
+        }
+        if (ms <= allowed_ms(*row.budget)) continue;
         line.modelled_over += fmt::format("{}{} over by {} ms: {}", line.modelled_over.empty() ? "modelled " : ", ",
-                                          kModelledColumns[column], ms_text(*line.modelled_ms[column] - *allowed),
-                                          line.modelled_bound[column]);
+                                          column, ms_text(ms - allowed_ms(*row.budget)), bound);
     }
+    if (line.modelled_over.empty() || !row.budget->level) return;
+    if (line.verdict != Verdict::over && line.verdict != Verdict::warned) line.verdict_text.clear();
+    line.verdict = *row.budget->level == BudgetLevel::error ? Verdict::over : Verdict::warned;
 }
 
 void judge(BudgetLine& line, const Row& row, const FrameReport& report) {
@@ -128,21 +125,19 @@ void judge(BudgetLine& line, const Row& row, const FrameReport& report) {
         say(Verdict::not_built, "not built");
     } else if (!row.any_in) {
         say(Verdict::not_called_for, "not called for");
-    } else if (!line.published_ms && !line.ours_ms) {
+    } else if (row.budget == nullptr) {
         say(Verdict::none, "no row in the budget");
-    } else if (report.caps.software) {
-        say(Verdict::not_judged, line.published_ms ? "not comparable here" : "not judged here");
+    } else if (row.budget->level == BudgetLevel::off) {
+        say(Verdict::none, "off");
+    } else if (report.caps.software || !lists(judged_columns(*row.budget), kMeasuredColumn)) {
+        say(Verdict::not_judged, line.published_ms && report.caps.software ? "not comparable here" : "not judged here");
     } else if (!line.measured) {
         say(Verdict::not_measured, "not measured");
+    } else if (const double over_ms = line.measured->median_ms - allowed_ms(*row.budget); over_ms > 0.0) {
+        const bool fails = row.budget->level.value_or(BudgetLevel::error) == BudgetLevel::error;
+        say(fails ? Verdict::over : Verdict::warned, fmt::format("over by {} ms", ms_text(over_ms)));
     } else {
-        const double allowed_ms =
-            line.published_high_ms.value_or(line.published_ms.value_or(line.ours_ms.value_or(0.0)));
-        const double over_ms = line.measured->median_ms - allowed_ms;
-        if (over_ms > 0.0) {
-            say(Verdict::over, fmt::format("over by {} ms", ms_text(over_ms)));
-        } else {
-            say(Verdict::within, "within");
-        }
+        say(Verdict::within, "within");
     }
 }
 
@@ -165,8 +160,8 @@ void add_lines(BudgetTable& table, const Row& row, const FrameReport& report) {
         line.share_of_frame = line.measured->median_ms / table.frame_ms;
     }
     add_modelled(line, row.effects, report);
-    compare_modelled(line);
     judge(line, row, report);
+    compare_modelled(line, row, report);
     if (!line.modelled_over.empty()) line.verdict_text += (line.verdict_text.empty() ? "" : "; ") + line.modelled_over;
     if (line.verdict == Verdict::not_called_for) {
         line.note = row.why_out;
@@ -193,44 +188,6 @@ void add_lines(BudgetTable& table, const Row& row, const FrameReport& report) {
     }
 }
 
-LimitLine limit_line(std::string line_name, double value, std::optional<double> limit, const char* unit, int digits) {
-    LimitLine line{.name = std::move(line_name),
-                   .value = fmt::format("{:.{}f}{}", value, digits, unit),
-                   .limit = "none",
-                   .verdict = Verdict::none,
-                   .verdict_text = "no limit"};
-    if (limit) {
-        line.limit = fmt::format("{:.{}f}{}", *limit, digits, unit);
-        line.verdict = value > *limit ? Verdict::over : Verdict::within;
-        line.verdict_text = value > *limit ? fmt::format("over by {:.{}f}{}", value - *limit, digits, unit) : "within";
-    }
-    return line;
-}
-
-void add_limits(BudgetTable& table, const FrameReport& report, const Budget& budget, bool judge_frame) {
-    constexpr double kMiB = 1024.0 * 1024.0;
-    if (report.measurement) {
-        LimitLine frame = limit_line("frame", report.measurement->frame.median_ms, budget.frame_ms, " ms", 2);
-        if (report.caps.software && !judge_frame) {
-            frame.verdict = Verdict::not_judged;
-            frame.verdict_text = "not judged here (name a --budget to judge it)";
-        }
-        table.limits.push_back(std::move(frame));
-    } else {
-        table.limits.push_back({.name = "frame",
-                                .value = "-",
-                                .limit = fmt::format("{:.2f} ms", budget.frame_ms),
-                                .verdict = Verdict::not_measured,
-                                .verdict_text = "not measured"});
-    }
-    table.limits.push_back(
-        limit_line("targets", static_cast<double>(report.plan.target_bytes()) / kMiB, budget.target_mib, " MiB", 2));
-    table.limits.push_back(
-        limit_line("textures", static_cast<double>(report.texture_bytes) / kMiB, budget.texture_mib, " MiB", 2));
-    table.limits.push_back(limit_line("draws", static_cast<double>(report.frame_calls.draws()),
-                                      budget.draws ? std::optional<double>(*budget.draws) : std::nullopt, "", 0));
-}
-
 }  // namespace
 
 const char* name(Verdict verdict) {
@@ -238,6 +195,7 @@ const char* name(Verdict verdict) {
         case Verdict::none: return "none";
         case Verdict::within: return "within";
         case Verdict::over: return "over";
+        case Verdict::warned: return "warned";
         case Verdict::not_built: return "not_built";
         case Verdict::not_called_for: return "not_called_for";
         case Verdict::not_measured: return "not_measured";
@@ -262,7 +220,9 @@ BudgetTable budget_table(const FrameReport& report, const Budget& budget, bool j
     for (const Row& row : rows_of(report.plan, budget)) {
         add_lines(table, row, report);
     }
-    add_limits(table, report, budget, judge_frame);
+    for (const BudgetRow& row : budget.rows)
+        for (const std::string& column : row.columns) expect_column(column, report, budget);
+    table.limits = limit_lines(report, budget, judge_frame);
     return table;
 }
 

@@ -52,10 +52,4 @@ std::size_t bytes_written(const FramePlan& plan, const Pass& pass) {
     return bytes;
 }
 
-const ModelledDevice* Modelled::find(const std::string& device) const {
-    for (const ModelledDevice& one : devices)
-        if (one.name == device) return &one;
-    return nullptr;
-}
-
 }  // namespace halfframe::perf

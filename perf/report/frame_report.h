@@ -49,6 +49,7 @@ struct Measurement {
 
 struct FrameReport {
     std::string scene;         ///< as the user named it
+    std::string camera = {};   ///< of the scene; empty: one without a name, or none of its own
     std::string picture_file;  ///< where the picture went; empty: nowhere
     std::string reproduce;     ///< the command that makes this again
     std::string context;       ///< platform::Context::description()

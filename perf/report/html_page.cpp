@@ -38,13 +38,17 @@ th, td { text-align: left; padding: .25rem .6rem .25rem 0; border-bottom: 1px so
 thead th { border-bottom: 2px solid var(--line); color: var(--soft); font-weight: 600; vertical-align: bottom; }
 tbody th { font-weight: 600; } tr.pass th { font-weight: 400; padding-left: 1.1rem; }
 .number { text-align: right; white-space: nowrap; }
+caption { text-align: left; font-weight: 600; padding: 1.1rem 0 .3rem; } table.device { min-width: 52rem; }
 th.group { text-align: center; }
 td:last-child { white-space: nowrap; }
 td.why { white-space: normal; }
 .bar { min-width: 7rem; } .bar span { display: block; height: .8rem; margin-top: .3rem; background: var(--bar); }
 .bar div { background: var(--band); } tr.pass .bar span { height: .5rem; margin-top: .4rem; opacity: .75; }
+.bar div { position: relative; } .bar b { position: absolute; top: -.15rem; bottom: -.15rem; width: 2px; background: var(--ink); }
+.bar .high { position: absolute; top: 0; margin: 0; opacity: .35; height: 100%; }
+tr.pass .bar .high { height: .5rem; margin: 0; } table.device .bar { min-width: 14rem; }
 .bar .past { background: repeating-linear-gradient(135deg, var(--over) 0 6px, var(--bar) 6px 12px); }
-.over { color: var(--over); font-weight: 600; } .within { color: var(--good); }
+.over { color: var(--over); font-weight: 600; } .warned { color: var(--focus); font-weight: 600; } .within { color: var(--good); }
 .out td, .out th { color: var(--soft); }
 pre { overflow-x: auto; padding: .6rem .8rem; background: var(--band);
   font: .85rem/1.45 ui-monospace, "DejaVu Sans Mono", monospace; }
@@ -74,12 +78,33 @@ std::string header(std::initializer_list<std::pair<const char*, bool>> titles) {
 }
 
 const char* style_of(Verdict verdict) {
-    return verdict == Verdict::over ? "over" : verdict == Verdict::within ? "within" : "";
+    return verdict == Verdict::over     ? "over"
+           : verdict == Verdict::warned ? "warned"
+           : verdict == Verdict::within ? "within"
+                                        : "";
+}
+
+/// What a row allows: the upper end of what was published, or our own.
+std::optional<double> allowed_ms(const BudgetLine& line) {
+    if (line.published_high_ms) return line.published_high_ms;
+    return line.published_ms ? line.published_ms : line.ours_ms;
+}
+
+/// A figure, with a mark where its limit is; the longer of the two fills the cell.
+std::string marked_bar(double value, double limit) {
+    // A tenth more than the limit, so that a mark within has something behind it.
+    const double whole = std::max({value, 1.1 * limit, 1e-12});
+    return fmt::format(
+        "<td class=\"bar\" aria-hidden=\"true\"><div><span{} style=\"width:{:.2f}%\"></span><b "
+        "style=\"left:{:.2f}%\"></b>"
+        "</div></td>",
+        value > limit ? " class=\"past\"" : "", std::clamp(100.0 * value / whole, 0.3, 100.0), 100.0 * limit / whole);
 }
 
 std::string bar(const BudgetLine& line) {
     if (!line.share_of_frame) {
-        return "<td class=\"bar\"></td>";
+        const std::optional<double> allowed = allowed_ms(line);
+        return line.modelled_ms[0] && allowed ? marked_bar(*line.modelled_ms[0], *allowed) : "<td class=\"bar\"></td>";
     }
     const double percent = 100.0 * *line.share_of_frame;
     // The number stands in the column beside it; the bar is for the eye alone.
@@ -133,6 +158,30 @@ std::string budget_rows(const BudgetTable& table, std::vector<std::string>& sour
     return rows;
 }
 
+std::string limit_bar(const LimitLine& line) {
+    const bool shown = line.number && line.level != BudgetLevel::off;
+    return shown ? marked_bar(*line.number, line.most) : "<td class=\"bar\"></td>";
+}
+
+std::string limits_section(const BudgetTable& table) {
+    std::string html = "<h3>Limits of the frame</h3>\n<div class=\"wide\"><table>" +
+                       header({{"limit", false},
+                               {"here", true},
+                               {"limit", true},
+                               {"bar, mark: limit", false},
+                               {"level", false},
+                               {"verdict", false}}) +
+                       "<tbody>";
+    for (const LimitLine& line : table.limits) {
+        html += fmt::format("<tr{}><th scope=\"row\"{}>{}</th>", line.level == BudgetLevel::off ? " class=\"out\"" : "",
+                            line.source.empty() ? "" : " title=\"" + html_escaped(line.source) + "\"",
+                            html_escaped(line.name)) +
+                cell(line.value, "number") + cell(line.limit, "number") + limit_bar(line) +
+                cell(halfframe::name(line.level)) + cell(line.verdict_text, style_of(line.verdict)) + "</tr>\n";
+    }
+    return html + "</tbody></table></div>\n";
+}
+
 std::string budget_section(const FrameReport& report, const BudgetTable& table, const std::string& id) {
     std::string html = "<h3>Milliseconds</h3>\n";
     html += fmt::format(
@@ -143,14 +192,17 @@ std::string budget_section(const FrameReport& report, const BudgetTable& table, 
                                        report.measurement->frame.frames, report.measurement->calibration.sentence))
             : "Nothing was measured.");
     html += fmt::format(
-        "<p class=\"soft\">Budget {}, in milliseconds. Bars are shares of its frame, {} ms. Published "
+        "<p class=\"soft\">Budget {}, in milliseconds. {} Published "
         "figures are of the named console, ours are allowances on it, modelled ones {}; "
         "none is ever mixed with what was measured here.{}</p>\n",
-        html_escaped(table.budget), ms_text(table.frame_ms),
+        html_escaped(table.budget),
+        report.measurement ? "Bars are shares of its frame, " + ms_text(table.frame_ms) + " ms."
+                           : std::string("Bars are the modelled PS3, the mark in them what the row allows."),
         report.modelled ? "are computed from counts" : "were not asked for (--cost)",
-        report.caps.software ? " This is a software driver: its times are a CPU's, so no console's row "
-                               "is judged by them."
-                             : "");
+        report.caps.software && report.measurement
+            ? " This is a software driver: its times are a CPU's, so no console's row "
+              "is judged by them."
+            : "");
     html += "<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"milliseconds\"><table>\n";
     html += fmt::format(
         "<thead><tr><th scope=\"col\" rowspan=\"2\">row, passes</th>"
@@ -168,13 +220,7 @@ std::string budget_section(const FrameReport& report, const BudgetTable& table, 
     std::vector<std::string> sources;
     html += "<tbody>" + budget_rows(table, sources, id) + "</tbody></table></div>\n";
 
-    html += "<h3>Limits of the frame</h3>\n<div class=\"wide\"><table>" +
-            header({{"limit", false}, {"here", true}, {"limit", true}, {"verdict", false}}) + "<tbody>";
-    for (const LimitLine& line : table.limits) {
-        html += fmt::format("<tr><th scope=\"row\">{}</th>", html_escaped(line.name)) + cell(line.value, "number") +
-                cell(line.limit, "number") + cell(line.verdict_text, style_of(line.verdict)) + "</tr>\n";
-    }
-    html += "</tbody></table></div>\n";
+    html += limits_section(table);
     if (!sources.empty()) {
         html += "<h3>Sources</h3>\n<ol class=\"sources\">";
         for (std::size_t index = 0; index < sources.size(); ++index) {
@@ -185,38 +231,69 @@ std::string budget_section(const FrameReport& report, const BudgetTable& table, 
     return html;
 }
 
-/// The bar of a modelled time: solid for the central value, past the end of the frame cut and striped.
-std::string modelled_bar(double ms, double frame_ms) {
-    const double percent = 100.0 * ms / frame_ms;
-    return fmt::format("<td class=\"bar\" aria-hidden=\"true\"><div><span{} style=\"width:{:.2f}%\"></span></div></td>",
-                       percent > 100.0 ? " class=\"past\"" : "", std::clamp(percent, 0.3, 100.0));
+/// The bar of a modelled time on the scale of `whole_ms`: solid for the central value, pale to the end of the band, a
+/// mark where the frame ends.
+std::string modelled_bar(double ms, double high_ms, double whole_ms, double frame_ms) {
+    return fmt::format(
+        "<td class=\"bar\" aria-hidden=\"true\"><div><span class=\"high\" style=\"width:{:.2f}%\"></span>"
+        "<span{} style=\"width:{:.2f}%\"></span>{}</div></td>",
+        std::clamp(100.0 * high_ms / whole_ms, 0.0, 100.0), ms > frame_ms ? " class=\"past\"" : "",
+        std::clamp(100.0 * ms / whole_ms, 0.3, 100.0),
+        frame_ms <= whole_ms ? fmt::format("<b style=\"left:{:.2f}%\"></b>", 100.0 * frame_ms / whole_ms) : "");
+}
+
+/// "shader 14.7, targets 0.6, draws 0.97": units of a pass that take a hundredth of it or more, longest first.
+std::string units_text(const ModelledPass& pass) {
+    std::vector<std::pair<std::string, double>> units = pass.units_ms;
+    units.emplace_back("draws and switches", pass.fixed_ms);
+    units.emplace_back("resolve", pass.resolve_ms);
+    std::ranges::stable_sort(units, std::ranges::greater{}, [](const auto& unit) { return unit.second; });
+    std::string text;
+    for (const auto& [unit, ms] : units)
+        if (ms >= 0.01 * pass.ms && ms > 0.0)
+            text += fmt::format("{}{} {}", text.empty() ? "" : ", ", unit, ms_text(ms));
+    return text;
+}
+
+std::string modelled_rows(const ModelledDevice& device, double frame_ms) {
+    const double whole_ms = std::max(1.05 * frame_ms, device.high_ms);
+    std::string html =
+        "<tr class=\"row\"><th scope=\"row\">frame</th>" + cell(ms_text(device.frame_ms), "number") +
+        cell(ms_text(device.low_ms) + " to " + ms_text(device.high_ms), "number") +
+        modelled_bar(device.frame_ms, device.high_ms, whole_ms, frame_ms) +
+        cell(ms_text(device.other_arithmetic_ms), "number") +
+        (device.frame_ms > frame_ms ? cell("over by " + ms_text(device.frame_ms - frame_ms) + " ms", "over")
+                                    : cell("within", "within")) +
+        "<td></td></tr>\n";
+    for (const ModelledPass& pass : device.passes) {
+        html += "<tr class=\"pass\"><th scope=\"row\">" + html_escaped(pass.pass) + "</th>" +
+                cell(ms_text(pass.ms), "number") +
+                cell(ms_text(pass.low_ms) + " to " + ms_text(pass.high_ms), "number") +
+                modelled_bar(pass.ms, pass.high_ms, whole_ms, frame_ms) +
+                cell(ms_text(pass.other_arithmetic_ms), "number") + cell(pass.bound) + cell(units_text(pass), "why") +
+                "</tr>\n";
+    }
+    return html;
 }
 
 std::string modelled_section(const FrameReport& report, double frame_ms) {
     if (!report.modelled) return "";
+    const bool half = report.modelled->arithmetic == "half";
     std::string html = "<h3>Modelled devices</h3>\n<p class=\"soft\">" + html_escaped(report.modelled->words) +
-                       fmt::format(" Bars are shares of {} ms; {} arithmetic.</p>\n", ms_text(frame_ms),
-                                   html_escaped(report.modelled->arithmetic));
+                       fmt::format(
+                           " Milliseconds in {} arithmetic, and in {} beside them. The mark in the bars is a "
+                           "frame of {} ms, the pale end of a bar the end of its band.</p>\n",
+                           half ? "half" : "full", half ? "full" : "half", ms_text(frame_ms));
     for (const ModelledDevice& device : report.modelled->devices) {
         html += fmt::format(
-            "<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"{0}\"><table>"
-            "<thead><tr><th scope=\"col\">{0}</th><th scope=\"col\" class=\"number\">ms</th>"
+            "<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"{0}\"><table class=\"device\">"
+            "<caption>{0}: {1}</caption>"
+            "<thead><tr><th scope=\"col\">pass</th><th scope=\"col\" class=\"number\">ms</th>"
             "<th scope=\"col\" class=\"number\">band</th><th aria-hidden=\"true\"></th>"
-            "<th scope=\"col\">bound by</th></tr></thead><tbody>\n",
-            html_escaped(device.name));
-        html += "<tr class=\"row\"><th scope=\"row\">frame</th>" + cell(ms_text(device.frame_ms), "number") +
-                cell(ms_text(device.low_ms) + " to " + ms_text(device.high_ms), "number") +
-                modelled_bar(device.frame_ms, frame_ms) +
-                (device.frame_ms > frame_ms ? cell("over by " + ms_text(device.frame_ms - frame_ms) + " ms", "over")
-                                            : cell("within", "within")) +
-                "</tr>\n";
-        for (const ModelledPass& pass : device.passes) {
-            html += "<tr class=\"pass\"><th scope=\"row\">" + html_escaped(pass.pass) + "</th>" +
-                    cell(ms_text(pass.ms), "number") +
-                    cell(ms_text(pass.low_ms) + " to " + ms_text(pass.high_ms), "number") +
-                    modelled_bar(pass.ms, frame_ms) + cell(pass.bound) + "</tr>\n";
-        }
-        html += "</tbody></table></div>\n";
+            "<th scope=\"col\" class=\"number\">{2}</th>"
+            "<th scope=\"col\">bound by</th><th scope=\"col\">units, ms</th></tr></thead><tbody>\n",
+            html_escaped(device.name), html_escaped(device.title), half ? "full" : "half");
+        html += modelled_rows(device, frame_ms) + "</tbody></table></div>\n";
     }
     return html;
 }
@@ -237,13 +314,16 @@ std::string scene_section(const PageScene& scene, std::size_t index) {
     const FrameReport& report = *scene.report;
     const std::string id = anchor(report.scene, index);
     std::string html =
-        fmt::format("<section aria-labelledby=\"{0}\"><h2 id=\"{0}\">{1}</h2>\n", id, html_escaped(report.scene));
+        fmt::format("<section aria-labelledby=\"{0}\"><h2 id=\"{0}\">{1}</h2>\n", id,
+                    html_escaped(report.scene + (report.camera.empty() ? "" : ", camera " + report.camera)));
     html += "<p>" + html_escaped(configuration_text(report.plan)) + "</p>\n";
-    html += fmt::format(
-        "<figure><img alt=\"{} rendered\" width=\"{}\" height=\"{}\" src=\"data:image/png;base64,{}\">"
-        "<figcaption>{}</figcaption></figure>\n",
-        html_escaped(report.scene), report.display.width, report.display.height, base64(png_bytes(report.display)),
-        html_escaped(report.picture_file));
+    if (report.display.width > 0) {
+        html += fmt::format(
+            "<figure><img alt=\"{} rendered\" width=\"{}\" height=\"{}\" src=\"data:image/png;base64,{}\">"
+            "<figcaption>{}</figcaption></figure>\n",
+            html_escaped(report.scene), report.display.width, report.display.height, base64(png_bytes(report.display)),
+            html_escaped(report.picture_file));
+    }
     html += budget_section(report, *scene.budget, id);
     html += modelled_section(report, scene.budget->frame_ms);
     html += effects_section(report.plan);
@@ -303,7 +383,8 @@ std::string html_page(const std::vector<PageScene>& scenes) {
         "report</title>\n<style>";
     html += kStyle;
     html += "</style>\n</head>\n<body>\n<header><h1>halfframe report</h1>\n";
-    if (!scenes.empty()) {
+    // A cost page was drawn nowhere.
+    if (!scenes.empty() && !scenes.front().report->caps.renderer.empty()) {
         const FrameReport& first = *scenes.front().report;
         html += "<p class=\"soft\">" + html_escaped(driver_text(first.caps)) + "<br>" + html_escaped(first.context) +
                 "</p>\n";

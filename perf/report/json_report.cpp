@@ -251,6 +251,11 @@ Json budget_json(const BudgetTable& table) {
         limits.push_back({{"name", line.name},
                           {"value", line.value},
                           {"limit", line.limit},
+                          {"number", optional_number(line.number)},
+                          {"most", line.most},
+                          {"unit", line.unit},
+                          {"level", halfframe::name(line.level)},
+                          {"source", line.source},
                           {"verdict", name(line.verdict)},
                           {"verdict_text", line.verdict_text}});
     }
@@ -263,6 +268,7 @@ Json budget_json(const BudgetTable& table) {
 
 Json report_json(const FrameReport& report, const BudgetTable& table) {
     return {{"scene", report.scene},
+            {"camera", report.camera},
             {"picture_file", report.picture_file.empty() ? Json(nullptr) : Json(report.picture_file)},
             {"reproduce", report.reproduce},
             {"context", report.context},

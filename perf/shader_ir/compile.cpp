@@ -15,6 +15,8 @@
 #include <tuple>
 
 #include "engine/error.h"
+#include "perf/shader_ir/loop_rounds.h"
+#include "perf/shader_ir/stage_cache.h"
 
 namespace halfframe::shader_ir {
 namespace {
@@ -40,7 +42,13 @@ struct GlslangProcess {
         if (!line.starts_with(kMark) || says_nothing) continue;
         story += (story.empty() ? "" : "; ") + line.substr(kMark.size());
     }
-    throw Error(Fault::check, "a shader does not compile to SPIR-V: " + (story.empty() ? log : story));
+    // What is wrong with the whole has no line; then the file at least.
+    const std::string file = text.files.empty() ? std::string("a shader") : text.files.front();
+    if (story.find("Missing entry point") != std::string::npos)
+        throw Error(Fault::check, file + ": there is no main(), so there is nothing to compile");
+    if (story.find("Recursion detected") != std::string::npos)
+        throw Error(Fault::check, file + ": a function calls itself, which GLSL ES does not allow");
+    throw Error(Fault::check, "a shader does not compile to SPIR-V: " + (story.empty() ? file + ": " + log : story));
 }
 
 void start_glslang() { static const GlslangProcess kProcess; }
@@ -87,12 +95,13 @@ spvtools::MessageConsumer into(std::string& story) {
     };
 }
 
-/// glslang marks no loop: unrolling is asked for by a bit of OpLoopMerge, its third operand.
-void ask_to_unroll(std::vector<std::uint32_t>& words) {
+/// glslang marks no loop: unrolling is asked for by a bit of OpLoopMerge, its third operand. `wanted`: by loop.
+void ask_to_unroll(std::vector<std::uint32_t>& words, const std::vector<bool>& wanted) {
+    std::size_t loop = 0;
     constexpr std::size_t kHeaderWords = 5;
     constexpr std::size_t kLoopControl = 3;
     for (std::size_t at = kHeaderWords; at < words.size(); at += words[at] >> spv::WordCountShift) {
-        if (static_cast<spv::Op>(words[at] & spv::OpCodeMask) == spv::OpLoopMerge)
+        if (static_cast<spv::Op>(words[at] & spv::OpCodeMask) == spv::OpLoopMerge && wanted.at(loop++))
             words.at(at + kLoopControl) |= spv::LoopControlUnrollMask;
     }
 }
@@ -215,23 +224,52 @@ void check_es100(const gl::StageText& text) {
         refuse(shader.getInfoLog(), text);
 }
 
-Module compile(const gl::StageText& text, gl::Stage stage, Cleaning cleaning) {
-    std::vector<std::uint32_t> words = spirv_of(text, stage);
-    if (cleaning == Cleaning::optimised) run(register_one_return, words);
-    if (cleaning != Cleaning::none) run(register_inlining, words);
-    std::optional<PrecisionMemory> memory;
-    if (cleaning == Cleaning::optimised) {
-        memory.emplace(parse(words, text.files));
-        ask_to_unroll(words);
-        run(register_optimising, words);
-    }
+namespace {
+
+void expect_valid(const std::vector<std::uint32_t>& words) {
     std::string story;
     spvtools::SpirvTools tools(kEnvironment);
     tools.SetMessageConsumer(into(story));
     expect(tools.Validate(words), [&] { return "SPIR-V that is not valid: " + story; });
-    Module module = parse(std::move(words), text.files);
-    if (memory) memory->restore(module);
+}
+
+StageCache::Kept optimised(const gl::StageText& text, gl::Stage stage) {
+    std::vector<std::uint32_t> words = spirv_of(text, stage);
+    run(register_one_return, words);
+    run(register_inlining, words);
+    StageCache::Kept kept{.inlined = words};
+    ask_to_unroll(words, loops_to_unroll(parse(words, text.files)));
+    run(register_optimising, words);
+    expect_valid(words);
+    kept.optimised = std::move(words);
+    return kept;
+}
+
+Module module_of(StageCache::Kept kept, const gl::StageText& text) {
+    const PrecisionMemory memory(parse(std::move(kept.inlined), text.files));
+    Module module = parse(std::move(kept.optimised), text.files);
+    memory.restore(module);
     return module;
+}
+
+}  // namespace
+
+Module compile(const gl::StageText& text, gl::Stage stage, Cleaning cleaning) {
+    if (cleaning == Cleaning::optimised) return module_of(optimised(text, stage), text);
+    std::vector<std::uint32_t> words = spirv_of(text, stage);
+    if (cleaning == Cleaning::inlined) run(register_inlining, words);
+    expect_valid(words);
+    return parse(std::move(words), text.files);
+}
+
+Module compile_kept(const gl::StageText& text, gl::Stage stage, const StageCache& cache) {
+    const std::string key = StageCache::key_of(text, stage);
+    std::optional<StageCache::Kept> kept = cache.find(key);
+    if (!kept) {
+        kept = optimised(text, stage);
+        cache.keep(key, *kept);
+    }
+    return module_of(*std::move(kept), text);
 }
 
 Module compile(const gl::ProgramDescription& description, gl::Stage stage, Cleaning cleaning,

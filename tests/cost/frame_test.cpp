@@ -11,26 +11,13 @@
 
 #include "content/data_files.h"
 #include "perf/cost/effect_table.h"
-#include "perf/process/child_process.h"
+#include "tests/cost/command.h"
 #include "tests/cost/json_schema.h"
 
 namespace halfframe::cost {
 namespace {
 
 using nlohmann::json;
-using Environment = std::vector<std::pair<std::string, std::optional<std::string>>>;
-
-struct Answer {
-    int code = 0;
-    std::string out;
-    std::string err;
-};
-
-Answer halfframe(std::vector<std::string> arguments, const Environment& environment = {}) {
-    arguments.insert(arguments.begin(), HALFFRAME_COMMAND);
-    process::ChildResult result = process::run_child({.arguments = arguments, .environment = environment});
-    return {result.exit_code, std::move(result.output), std::move(result.errors)};
-}
 
 json cost_of(std::vector<std::string> arguments, const Environment& environment = {},
              const std::string& size = "160x90") {
@@ -46,16 +33,6 @@ json find(const json& list, const std::string& key, const std::string& value) {
         if (one.at(key) == value) return one;
     ADD_FAILURE() << "nothing with " << key << " " << value;
     return {};
-}
-
-std::string temporary(const std::string& name, const std::string& text) {
-    const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / name;
-    std::ofstream(file) << text;
-    return file.string();
-}
-
-void expect_in(const std::string& text, const std::string& part) {
-    EXPECT_NE(text.find(part), std::string::npos) << text;
 }
 
 TEST(Frames, CountsAreTheSameUnderAnyThreadsAndVectorUnits) {
@@ -134,6 +111,10 @@ TEST(Frames, OutputFollowsThePublishedSchema) {
     json broken = cost_of({"empty"});
     broken["devices"][0]["frame_mss"] = 1;
     EXPECT_EQ(schema_violation(schema_named("cost.schema.json"), broken), "/devices/0: unknown key frame_mss");
+    const Answer drawn = halfframe({"render", "test_room", "--size", "64x36", "--measure", "1", "--cost", "--json"});
+    EXPECT_EQ(schema_violation(schema_named("report.schema.json"), json::parse(drawn.out)), "") << drawn.err;
+    const std::string shader = temporary("halfframe_schema.frag", "void main() { gl_FragColor = vec4(1.0); }\n");
+    EXPECT_EQ(schema_violation(schema_named("shader_cost.schema.json"), cost_of({shader})), "");
     broken["devices"] = 3;
     EXPECT_EQ(schema_violation(schema_named("cost.schema.json"), broken), "/devices: not of type array");
 }
@@ -186,6 +167,78 @@ TEST(Frames, TraceAndCsv) {
     for (std::string line; std::getline(lines, line);) ++count;
     EXPECT_EQ((count - 1) % 3, 0u);
     EXPECT_GT(count, 10u);
+}
+
+TEST(Frames, ViewsAreTheSameInOneProcessAndInSeveral) {
+    const std::vector<std::string> words{"cost",        "memory_room", "--all-cameras", "--tiers",
+                                         "low,console", "--size",      "64x36",         "--json"};
+    const auto with = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), words.begin(), words.end());
+        const Answer answer = halfframe(more);
+        EXPECT_EQ(answer.code, 0) << answer.err;
+        return json::parse(answer.out);
+    };
+    const json one = with({"--jobs", "1"});
+    ASSERT_EQ(one.size(), 4u);
+    EXPECT_EQ(with({"--jobs", "3"}), one);
+    EXPECT_EQ(with({"--part", "2/2"}), json::array({one[1], one[3]}));
+    for (const json& view : one) EXPECT_EQ(schema_violation(schema_named("cost.schema.json"), view), "");
+    // A view among others is what it is alone.
+    json alone =
+        cost_of({"memory_room", "--camera", one[3].at("camera").get<std::string>(), "--tier", "console"}, {}, "64x36");
+    EXPECT_EQ(alone, one[3]);
+    EXPECT_EQ(halfframe({"cost", "memory_room", "--all-cameras", "--part", "3/2"}).code, 2);
+    EXPECT_EQ(halfframe({"cost", "memory_room", "--all-cameras", "--why", "surface"}).code, 2);
+    EXPECT_EQ(halfframe({"cost", "memory_room", "--tiers", "low,hgih"}).code, 2);
+}
+
+TEST(Frames, ThePageStandsAlone) {
+    const std::string page = temporary("halfframe_cost.html", "");
+    const Answer result = halfframe({"cost", "test_room", "--size", "64x36", "--html", page});
+    ASSERT_EQ(result.code, 0) << result.err;
+    std::ifstream stream(page);
+    const std::string html{std::istreambuf_iterator<char>(stream), {}};
+    for (const char* part : {"no mediump hardware was measured", "Limits of the frame", "frame on ps3", "bound by",
+                             "Effects, in and out", "not called for"})
+        expect_in(html, part);
+    EXPECT_EQ(html.find("http://"), std::string::npos);
+    EXPECT_EQ(html.find("src=\"data:image/png"), std::string::npos);  // nothing was drawn
+}
+
+TEST(UserShaders, StrangeOnesAreCountedOrRefusedInWords) {
+    const std::string es3 = "#version 300 es\nprecision highp float;\nin vec4 a;\nout vec4 c;\n";
+    int number = 0;
+    const auto expect_case = [&](const std::string& text, int code, const char* says) {
+        const std::string file = temporary("halfframe_odd_" + std::to_string(number++) + ".frag", text);
+        const Answer answer = halfframe({"cost", file});
+        EXPECT_EQ(answer.code, code) << text << answer.err;
+        expect_in(answer.out + answer.err, says);
+        EXPECT_EQ(answer.err.find("internal error"), std::string::npos) << text;
+    };
+    expect_case("precision mediump float;\nfloat f() { return 1.0; }\n", 1, "there is no main()");
+    expect_case(es3 + "float f(float x) { return f(x); }\nvoid main() { c = vec4(f(1.0)); }\n", 1, "calls itself");
+    expect_case(
+        "#version 310 es\nprecision highp float;\nout vec4 c;\nlayout(binding=0) buffer B { float x[]; };\n"
+        "void main() { c = vec4(x[3]); }\n",
+        1, "not counted");
+    // Names that only ES 3.00 has a meaning for.
+    expect_case(
+        "precision mediump float;\nvarying vec2 v;\nuniform sampler2D texture;\nfloat round(float x) { return "
+        "floor(x + 0.5); }\nvoid main() { float smooth = round(v.x); gl_FragColor = smooth * texture2D(texture, "
+        "v); }\n",
+        0, "ES 3.00 twin");
+    // The counter of a loop may choose a sampler in ES 1.00.
+    expect_case(
+        "precision mediump float;\nvarying vec2 v;\nuniform sampler2D images[3];\nvoid main() { vec4 s = "
+        "vec4(0.0); for (int i = 0; i < 3; ++i) s += texture2D(images[i], v); gl_FragColor = s; }\n",
+        0, "ES 3.00 twin");
+    expect_case("\xef\xbb\xbfvoid main() { gl_FragColor = vec4(1.0); }\n", 0, "cost of");
+    // No compiler writes this loop out, and nobody waits for one that tries.
+    expect_case(es3 + "void main() { vec4 s = a; for (int i = 0; i < 100000000; ++i) s = s * 1.5 + a; c = s; }\n", 0,
+                "at most 100000000 rounds");
+    expect_case(es3 + "void main() { vec4 s = a; for (int i = 100000000; i > 0; --i) s = s * 1.5 + a; c = s; }\n", 0,
+                "at most 100000000 rounds");
+    EXPECT_EQ(halfframe({"cost", temporary("halfframe_odd.vert", "void main() {}\n")}).code, 2);
 }
 
 TEST(UserShaders, BothLanguagesAreCountedInThreePrecisions) {

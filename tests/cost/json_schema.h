@@ -1,6 +1,7 @@
 // Checks a value against the part of JSON Schema that the published schemas use.
 #pragma once
 
+#include <algorithm>
 #include <fstream>
 #include <string>
 
@@ -18,6 +19,7 @@ inline bool has_type(const nlohmann::json& value, const std::string& type) {
     if (type == "array") return value.is_array();
     if (type == "string") return value.is_string();
     if (type == "boolean") return value.is_boolean();
+    if (type == "null") return value.is_null();
     if (type == "integer") return value.is_number_integer();
     return type == "number" && value.is_number();
 }
@@ -25,8 +27,13 @@ inline bool has_type(const nlohmann::json& value, const std::string& type) {
 /// "/place: what is wrong", or nothing. Knows type, enum, minimum, required, properties, additionalProperties, items.
 inline std::string schema_violation(const nlohmann::json& schema, const nlohmann::json& value,
                                     const std::string& place = "") {
-    if (schema.contains("type") && !has_type(value, schema["type"]))
-        return place + ": not of type " + schema["type"].get<std::string>();
+    if (schema.contains("type")) {
+        const nlohmann::json types =
+            schema["type"].is_array() ? schema["type"] : nlohmann::json::array({schema["type"]});
+        const auto fits = [&](const nlohmann::json& type) { return has_type(value, type.get<std::string>()); };
+        if (std::none_of(types.begin(), types.end(), fits))
+            return place + ": not of type " + (types.size() == 1 ? types[0].get<std::string>() : types.dump());
+    }
     if (schema.contains("enum") &&
         std::find(schema["enum"].begin(), schema["enum"].end(), value) == schema["enum"].end())
         return place + ": " + value.dump() + " is not allowed";

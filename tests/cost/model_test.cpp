@@ -142,7 +142,7 @@ protected:
         DrawWork& draw = pass.draws[static_cast<std::size_t>(whole(0, static_cast<int>(pass.draws.size()) - 1))];
         FragmentWork& fragment = draw.fragment[0];
         const double more = number(0.1, 1000.0);
-        switch (whole(0, 11)) {
+        switch (whole(0, 14)) {
             case 0: draw.fragments_shaded += more; break;
             case 1: draw.fragments_written += more; break;
             case 2: draw.vertices += more; break;
@@ -154,6 +154,13 @@ protected:
             case 8: pass.texture_bytes += more; break;
             case 9: pass.draws.push_back(draw); break;
             case 10: draw.blends = true; break;
+            case 11: pass.color->resolved = true; break;
+            case 12: pass.color->loaded = true; break;
+            case 13: {  // tiles of EDRAM, and with them replays
+                pass.color->samples *= 2;
+                if (pass.depth) pass.depth->samples *= 2;
+                break;
+            }
             default: draw.temporaries.half += 1; break;
         }
         return pass;

@@ -93,7 +93,7 @@ TEST(BudgetTable, a_software_driver_is_never_compared_with_a_console) {
 TEST(BudgetTable, a_named_budget_judges_the_frame_even_there) {
     const BudgetTable table = budget_table(sample_report(true), sample_budget(), true);
     EXPECT_EQ(limit_named(table, "frame").verdict, Verdict::over);
-    EXPECT_EQ(limit_named(table, "frame").verdict_text, "over by 30.00 ms");
+    EXPECT_EQ(limit_named(table, "frame").verdict_text, "over by 30.00 ms: most in sample_pass, 5.00 ms");
     EXPECT_TRUE(table.exceeded());
 }
 

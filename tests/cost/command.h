@@ -1,0 +1,41 @@
+// The command as a child process, for the tests of what it prints.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "perf/process/child_process.h"
+
+namespace halfframe::cost {
+
+struct Answer {
+    int code = 0;
+    std::string out;
+    std::string err;
+};
+
+using Environment = std::vector<std::pair<std::string, std::optional<std::string>>>;
+
+inline Answer halfframe(std::vector<std::string> arguments, const Environment& environment = {}) {
+    arguments.insert(arguments.begin(), HALFFRAME_COMMAND);
+    process::ChildResult result = process::run_child({.arguments = arguments, .environment = environment});
+    return {result.exit_code, std::move(result.output), std::move(result.errors)};
+}
+
+inline std::string temporary(const std::string& name, const std::string& text) {
+    const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / name;
+    std::ofstream(file) << text;
+    return file.string();
+}
+
+inline void expect_in(const std::string& text, const std::string& part) {
+    EXPECT_NE(text.find(part), std::string::npos) << text << "\nlacks " << part;
+}
+
+}  // namespace halfframe::cost

@@ -163,6 +163,17 @@ void check_skins_and_animations(const JsonPlace& root) {
     });
 }
 
+/// A node's matrix is a translation, a rotation and a scale (glTF 2.0, section 3.5.3): its last row is 0 0 0 1.
+void expect_affine(const JsonPlace& matrix) {
+    for (std::size_t column = 0; column < 4; ++column) {
+        const double number = matrix.value()[4 * column + 3].get<double>();  // numbers, as was checked
+        // 1e-4: what exporters leave of products of rounded matrices.
+        if (std::abs(number - (column == 3 ? 1.0 : 0.0)) > 1e-4) {
+            matrix.fail(fmt::format("has {} in its last row, which must be 0 0 0 1", number));
+        }
+    }
+}
+
 void check_node(const JsonPlace& root, const JsonPlace& node) {
     (void)index_in(node, "mesh", count_of(root, "meshes"), "meshes");
     (void)index_in(node, "camera", count_of(root, "cameras"), "cameras");
@@ -175,6 +186,7 @@ void check_node(const JsonPlace& root, const JsonPlace& node) {
     for (const Part& part : {Part{"matrix", 16}, Part{"translation", 3}, Part{"rotation", 4}, Part{"scale", 3}}) {
         if (node.has(part.key)) {
             node.at(part.key).expect_numbers(part.numbers, -kLargestFloat, kLargestFloat);
+            if (part.numbers == 16) expect_affine(node.at("matrix"));
             if (part.numbers != 16 && node.has("matrix")) {
                 node.fail(fmt::format("has a matrix and a {} too", part.key));
             }

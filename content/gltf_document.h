@@ -61,7 +61,8 @@ struct GltfResources {
 };
 /// Reads data URIs, files beside the asset and the GLB's binary chunk. A file must lie in the asset's folder or below,
 /// by name and after symbolic links are followed.
-[[nodiscard]] GltfResources read_gltf_resources(const GltfDocument& document);
+/// The chunk is moved out of the document.
+[[nodiscard]] GltfResources read_gltf_resources(GltfDocument& document);
 
 /// Size of one element of an accessor [bytes] with the padding of matrix columns; `type` as in glTF ("VEC3", "MAT2").
 [[nodiscard]] std::uint64_t element_bytes(std::uint64_t component_type, const std::string& type);

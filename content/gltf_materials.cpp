@@ -278,7 +278,7 @@ int GltfMaterials::scene_image(int image, bool srgb) {
         return known->second;
     }
     const auto at = static_cast<std::size_t>(image);
-    const DecodedImage& decoded = gltf_.images.at(at);
+    DecodedImage& decoded = gltf_.images.at(at);
     Image result;
     result.name = gltf_.model.images.at(at).name;
     if (result.name.empty()) {
@@ -289,7 +289,11 @@ int GltfMaterials::scene_image(int image, bool srgb) {
     result.width = decoded.width;
     result.height = decoded.height;
     result.srgb = srgb;
-    result.rgba = decoded.rgba;
+    if (const auto twin = images_.find({image, !srgb}); twin != images_.end()) {
+        result.rgba = scene_.images[static_cast<std::size_t>(twin->second)].rgba;
+    } else {
+        result.rgba = std::move(decoded.rgba);
+    }
     scene_.images.push_back(std::move(result));
     return images_[{image, srgb}] = static_cast<int>(scene_.images.size()) - 1;
 }

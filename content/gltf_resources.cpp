@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -132,13 +133,14 @@ std::string bytes_of_uri(const GltfDocument& document, const JsonPlace& place) {
     return read_regular_file(path, kMostFileBytes, fmt::format("{}: {}", document.source.file, place.pointer()));
 }
 
-std::string bytes_of_buffer(const GltfDocument& document, const JsonPlace& buffer, std::size_t index) {
+std::string bytes_of_buffer(GltfDocument& document, const JsonPlace& buffer, std::size_t index) {
     const auto byte_length = static_cast<std::size_t>(buffer.at("byteLength").whole());
     std::string bytes;
     if (buffer.has("uri")) {
         bytes = bytes_of_uri(document, buffer.at("uri"));
     } else if (index == 0 && document.binary_chunk) {
-        bytes = *document.binary_chunk;
+        bytes = std::move(*document.binary_chunk);
+        document.binary_chunk.reset();
     } else {
         return {};
     }
@@ -151,7 +153,7 @@ std::string bytes_of_buffer(const GltfDocument& document, const JsonPlace& buffe
 
 }  // namespace
 
-GltfResources read_gltf_resources(const GltfDocument& document) {
+GltfResources read_gltf_resources(GltfDocument& document) {
     GltfResources resources;
     std::uint64_t image_file_bytes = 0;
     for_each_object(document.root(), "buffers", [&](const JsonPlace& buffer, std::size_t index) {

@@ -2,6 +2,8 @@
 #include "content/json_place.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <vector>
@@ -22,6 +24,14 @@ std::string line_and_column(std::string_view text, std::size_t byte) {
     const auto line = 1 + std::count(before.begin(), before.end(), '\n');
     const std::size_t line_start = before.rfind('\n') == std::string_view::npos ? 0 : before.rfind('\n') + 1;
     return fmt::format("line {}, column {}", line, before.size() - line_start + 1);
+}
+
+/// Made for every value that is looked at, so without a format string.
+std::string below(const std::string& pointer, std::string_view child) {
+    std::string result;
+    result.reserve(pointer.size() + 1 + child.size());
+    result.append(pointer).append(1, '/').append(child);
+    return result;
 }
 
 /// Byte where the brackets first nest deeper than `deepest`, or npos.
@@ -75,7 +85,7 @@ JsonPlace JsonPlace::at(std::string_view key) const {
     if (found == value_->end()) {
         fail(fmt::format("'{}' is missing", key));
     }
-    return {*found, *source_, fmt::format("{}/{}", pointer_, key)};
+    return {*found, *source_, below(pointer_, key)};
 }
 
 std::size_t JsonPlace::size() const {
@@ -87,7 +97,9 @@ std::size_t JsonPlace::size() const {
 
 JsonPlace JsonPlace::at(std::size_t index) const {
     expect(index < size(), "an element of a JSON array was asked for past its end");
-    return {(*value_)[index], *source_, fmt::format("{}/{}", pointer_, index)};
+    std::array<char, 24> digits{};
+    const char* end = std::to_chars(digits.data(), digits.data() + digits.size(), index).ptr;
+    return {(*value_)[index], *source_, below(pointer_, {digits.data(), end})};
 }
 
 std::uint64_t JsonPlace::whole(std::uint64_t lowest, std::uint64_t highest) const {
@@ -142,7 +154,9 @@ void JsonPlace::expect_numbers(std::size_t count, double lowest, double highest)
         fail(fmt::format("must hold {} numbers but holds {}", count, size()));
     }
     for (std::size_t i = 0; i < count; ++i) {
-        (void)at(i).number(lowest, highest);
+        const nlohmann::json& each = (*value_)[i];
+        const bool fits = each.is_number() && each.get<double>() >= lowest && each.get<double>() <= highest;
+        if (!fits) (void)at(i).number(lowest, highest);  // says why
     }
 }
 

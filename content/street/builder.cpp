@@ -12,7 +12,6 @@
 #include "content/built_in.h"
 #include "engine/effects/surface/surface.h"
 #include "engine/error.h"
-#include "shaders_es/surface/surface_limits.h"
 
 namespace halfframe::content::street {
 
@@ -25,6 +24,7 @@ constexpr float kCellAlong = 14.0f;
 constexpr float kUnlitAlong = 56.0f;
 constexpr float kGroundFloor = 4.6f;
 
+constexpr std::size_t kMostLamps = 8;  // that the effect surface draws on one object
 constexpr float kShortestCut = 3.0f;  // a mesh this long is not cut again
 
 /// The triangles whose middle lies below the mean of all middles on an axis, and the others. Corners stay what they are.
@@ -248,7 +248,7 @@ int Builder::lamps_left_out(const Mesh& mesh, int material) const {
     int left_out = 0;
     std::vector<int> lights;
     if (scene_.materials[static_cast<std::size_t>(material)].model != MaterialModel::unlit)
-        lights_reaching(scene_, local_box(mesh), SURFACE_LIGHT_LIMIT, lights, left_out);
+        lights_reaching(scene_, local_box(mesh), kMostLamps, lights, left_out);
     return left_out;
 }
 

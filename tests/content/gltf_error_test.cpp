@@ -69,6 +69,11 @@ const std::vector<BrokenDocument>& faults() {
              d["nodes"].push_back(json::object());
          },
          "/nodes/2/children/0", "already a child of node 1"},
+        {"projective_matrix",
+         [](json& d) {
+             d["nodes"][0]["matrix"] = {1, 0, 0, 0.5, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+         },
+         "/nodes/0/matrix", "has 0.5 in its last row"},
         {"node_matrix_and_scale",
          [](json& d) {
              d["nodes"][0]["matrix"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};

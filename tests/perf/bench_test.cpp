@@ -52,5 +52,14 @@ TEST(DrawBench, PrintsARatioForEveryCase) {
     EXPECT_EQ(result.out.find("nan"), std::string::npos) << result.out;
 }
 
+TEST(LoadBench, PrintsARatioAndAPeakForEverySize) {
+    const ChildResult result = run_child(HALFFRAME_BINARY_DIR "/halfframe_load_bench", {"--rounds", "1", "--small"}, {});
+    ASSERT_EQ(result.code, 0) << result.err;
+    for (const char* word : {"8 images of 256 x 256", "16384 vertices", "6250 nodes", "bare ms", "ratio", "peak MiB"}) {
+        EXPECT_NE(result.out.find(word), std::string::npos) << word << "\n" << result.out;
+    }
+    EXPECT_EQ(result.out.find("nan"), std::string::npos) << result.out;
+}
+
 }  // namespace
 }  // namespace halfframe::test

@@ -43,7 +43,7 @@ Material rained_on(Material material) {
 /// Walls stand in the rain's way edge on: they soak unevenly, in runs, to some half. A texture of its own for the
 /// water, which leaves no crack to fill.
 Image wall_water(std::uint32_t seed) {
-    constexpr int kTexels = 128;
+    constexpr int kTexels = 256;
     Image image = blank("wall water", kTexels, kTexels, false);
     for (int y = 0; y < kTexels; ++y) {
         for (int x = 0; x < kTexels; ++x) {

@@ -12,7 +12,7 @@ namespace {
 bool finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 TEST(BuiltIn, TheListAndOpenSceneAgree) {
-    ASSERT_EQ(content::built_in_scenes().size(), 8u);
+    ASSERT_EQ(content::built_in_scenes().size(), 9u);
     for (const content::BuiltInScene& each : content::built_in_scenes()) {
         EXPECT_EQ(content::open_scene(std::string(each.name)).name, each.name);
         EXPECT_FALSE(each.purpose.empty());

@@ -57,7 +57,7 @@ protected:
 };
 
 TEST_F(GltfExport, BuiltInScenesDrawTheSameFrame) {
-    for (const char* name : {"test_room", "spheres", "lamps"}) {
+    for (const char* name : {"test_room", "spheres", "lamps", "wet_yard"}) {
         const Scene scene = content::open_scene(name);
         const Scene loaded = back(scene);
         EXPECT_TRUE(loaded.notices.empty()) << loaded.notices.front();

@@ -7,7 +7,7 @@
 
 FRAGMENT_IN FULL vec2 vertex_uv;
 uniform HALF sampler2D picture;
-uniform FULL vec4 texel;  // xy: one pixel. FULL: 1 / 1280 added to a uv is below half's last bit
+FRAGMENT_UNIFORM FULL vec4 texel;  // xy: one pixel. FULL: 1 / 1280 added to a uv is below half's last bit
 
 //@not_run it reads a texture; what it computes is edge_luma
 float luma_at(FULL vec2 pixels) { return edge_luma(sample_2d(picture, vertex_uv + pixels * texel.xy).rgb); }

@@ -3,14 +3,14 @@
 #include "environment/environment_by_vertex.glsl"
 
 uniform HALF samplerCube reflection_map;
-uniform HALF vec4 reflection_scale;  // x: root of the range and exposure (RGBM8) or the exposure (float); y: roughest level
+FRAGMENT_UNIFORM HALF vec4 reflection_scale;  // x: root of the range and exposure (RGBM8) or the exposure (float); y: roughest level
 
 #ifdef IRRADIANCE_BY_VERTEX
 FRAGMENT_IN HALF vec3 vertex_irradiance;
 //@not_run it returns a varying
 vec3 environment_irradiance(vec3 n) { return vertex_irradiance; }
 #else
-uniform HALF vec4 irradiance_terms[9];
+FRAGMENT_UNIFORM HALF vec4 irradiance_terms[9];
 //@not_run it hands nine uniforms to irradiance()
 vec3 environment_irradiance(vec3 n) {
     return irradiance(n, irradiance_terms[0].rgb, irradiance_terms[1].rgb, irradiance_terms[2].rgb,

@@ -4,7 +4,7 @@
 FRAGMENT_IN HALF vec3 vertex_irradiance;
 uniform HALF samplerCube reflection_map;
 uniform HALF samplerCube rough_reflection_map;
-uniform HALF vec4 reflection_scale;  // x: root of the range and exposure
+FRAGMENT_UNIFORM HALF vec4 reflection_scale;  // x: root of the range and exposure
 
 //@not_run it reads textures; what it computes is unpacked_rgbm and mixed_reflection
 vec3 environment_reflection(vec3 toward, float smoothness) {

@@ -2,6 +2,7 @@
 #include "engine/frame/renderer.h"
 
 #include <algorithm>
+#include <array>
 
 #include <gtest/gtest.h>
 
@@ -65,7 +66,7 @@ TEST_F(RendererTest, UniformsHandedOnByVerticesMoveNoPixel) {
          {std::pair{Tier::low, Arithmetic::full}, std::pair{Tier::console, Arithmetic::half},
           std::pair{Tier::console, Arithmetic::full}, std::pair{Tier::reference, Arithmetic::full}}) {
         std::vector<Picture> pictures;
-        for (const gl::Caps* with : {&caps(), &plain}) {
+        for (const gl::Caps* with : std::array<const gl::Caps*, 2>{&caps(), &plain}) {
             Renderer renderer(gl(), *with);
             renderer.prepare(scene, plan_frame(scene, view, {.tier = tier, .arithmetic = arithmetic}, *with,
                                                all_effects()));

@@ -257,8 +257,8 @@ std::uint32_t Renderer::texture(const Texture& texture, const TextureUse& use) {
     return texture_name;
 }
 
-std::uint32_t Renderer::packed_texture(const Texture& normals, const Texture& metallic_roughness) {
-    const std::uint32_t texture_name = textures_->get_packed(*scene_, normals, metallic_roughness, notices_);
+std::uint32_t Renderer::packed_texture(const Texture& first, const Texture& second, const TextureUse& use) {
+    const std::uint32_t texture_name = textures_->get_packed(*scene_, first, second, use, notices_);
     texture_bytes_ = textures_->bytes();
     return texture_name;
 }

@@ -99,8 +99,8 @@ public:
     int claim_skin(gl::Program& program);
     /// Device texture of a scene texture, uploaded once for each use.
     [[nodiscard]] std::uint32_t texture(const Texture& texture, const TextureUse& use);
-    /// The same for packed_surface_map() of two textures that are sampled alike.
-    [[nodiscard]] std::uint32_t packed_texture(const Texture& normals, const Texture& metallic_roughness);
+    /// The same for two textures in one that are sampled alike: TextureStore::get_packed().
+    [[nodiscard]] std::uint32_t packed_texture(const Texture& first, const Texture& second, const TextureUse& use);
     /// Bytes of every texture on the device, mip levels included.
     [[nodiscard]] std::size_t texture_bytes() const { return texture_bytes_ + own_texture_bytes_; }
     /// Adds a texture that an effect has uploaded itself to that sum.

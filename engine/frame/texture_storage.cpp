@@ -97,6 +97,26 @@ void store(const Sum& sum, std::uint8_t* to, TexelKind kind) {
     }
 }
 
+/// Of `image` where the texel x, y of `out` is. Bilinear, repeating: a texture that does not repeat is not read past its
+/// edge.
+Sum sampled(const Image& image, const Image& out, int x, int y, TexelKind kind) {
+    const float sx = (static_cast<float>(x) + 0.5f) * static_cast<float>(image.width) / static_cast<float>(out.width);
+    const float sy = (static_cast<float>(y) + 0.5f) * static_cast<float>(image.height) / static_cast<float>(out.height);
+    const float fx = std::floor(sx - 0.5f), fy = std::floor(sy - 0.5f);
+    Sum sum;
+    for (int corner = 0; corner < 4; ++corner) {
+        const int dx = corner & 1, dy = corner >> 1;
+        const float wx = sx - 0.5f - fx, wy = sy - 0.5f - fy;
+        const float weight = (dx != 0 ? wx : 1.0f - wx) * (dy != 0 ? wy : 1.0f - wy);
+        if (weight == 0.0f) continue;
+        const int px = (static_cast<int>(fx) + dx + image.width) % image.width;
+        const int py = (static_cast<int>(fy) + dy + image.height) % image.height;
+        const std::size_t at = (static_cast<std::size_t>(py) * static_cast<std::size_t>(image.width) + px) * 4;
+        add(sum, image.rgba.data() + at, kind, weight);
+    }
+    return sum;
+}
+
 /// The texels of a row or column that one of a smaller one covers, and how much of each.
 struct Share {
     int first = 0;
@@ -270,29 +290,10 @@ Image packed_surface_map(const Image& normals, const Image& metallic_roughness) 
               .srgb = false,
               .rgba = {}};
     out.rgba.resize(static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height) * 4);
-    /// Bilinear, repeating: a texture that does not repeat is not read past its edge.
-    const auto sample = [&](const Image& image, int x, int y) {
-        const float sx =
-            (static_cast<float>(x) + 0.5f) * static_cast<float>(image.width) / static_cast<float>(out.width);
-        const float sy =
-            (static_cast<float>(y) + 0.5f) * static_cast<float>(image.height) / static_cast<float>(out.height);
-        const float fx = std::floor(sx - 0.5f), fy = std::floor(sy - 0.5f);
-        Texel sum{};
-        for (int corner = 0; corner < 4; ++corner) {
-            const int dx = corner & 1, dy = corner >> 1;
-            const float wx = sx - 0.5f - fx, wy = sy - 0.5f - fy;
-            const float weight = (dx != 0 ? wx : 1.0f - wx) * (dy != 0 ? wy : 1.0f - wy);
-            if (weight == 0.0f) continue;
-            const int px = (static_cast<int>(fx) + dx + image.width) % image.width;
-            const int py = (static_cast<int>(fy) + dy + image.height) % image.height;
-            const std::size_t at = (static_cast<std::size_t>(py) * static_cast<std::size_t>(image.width) + px) * 4;
-            for (std::size_t c = 0; c < 4; ++c) sum[c] += weight * static_cast<float>(image.rgba[at + c]);
-        }
-        return sum;
-    };
     for (int y = 0; y < out.height; ++y) {
         for (int x = 0; x < out.width; ++x) {
-            const Texel n = sample(normals, x, y), mr = sample(metallic_roughness, x, y);
+            const Texel n = sampled(normals, out, x, y, TexelKind::data).texel;
+            const Texel mr = sampled(metallic_roughness, out, x, y, TexelKind::data).texel;
             Texel v{};
             for (std::size_t c = 0; c < 3; ++c) v[c] = n[c] * (2.0f / 255.0f) - 1.0f;
             v[2] = std::max(v[2], 0.01f);  // as the shader has it: no normal looks into its surface
@@ -303,6 +304,23 @@ Image packed_surface_map(const Image& normals, const Image& metallic_roughness) 
             to[1] = code_of_snorm(v[1] / length);
             to[2] = rounded(mr[2]);
             to[3] = rounded(mr[1]);
+        }
+    }
+    return out;
+}
+
+Image color_with_occlusion(const Image& color, const Image& occlusion) {
+    Image out{.name = color.name + "+" + occlusion.name,
+              .width = std::max(color.width, occlusion.width),
+              .height = std::max(color.height, occlusion.height),
+              .srgb = color.srgb,
+              .rgba = {}};
+    out.rgba.resize(static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height) * 4);
+    std::uint8_t* to = out.rgba.data();
+    for (int y = 0; y < out.height; ++y) {
+        for (int x = 0; x < out.width; ++x, to += 4) {
+            store(sampled(color, out, x, y, TexelKind::color), to, TexelKind::color);
+            to[3] = rounded(sampled(occlusion, out, x, y, TexelKind::data).texel[0]);
         }
     }
     return out;

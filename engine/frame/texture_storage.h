@@ -51,6 +51,10 @@ struct TextureUse {
 /// larger of the two in each direction; the smaller one is filtered. Spares a fetch.
 [[nodiscard]] Image packed_surface_map(const Image& normals, const Image& metallic_roughness);
 
+/// The colours of one image with the occlusion (red) of another as their alpha, as large as the larger of the two in each
+/// direction; the smaller one is filtered, colours in linear light. Spares a fetch where alpha means nothing.
+[[nodiscard]] Image color_with_occlusion(const Image& color, const Image& occlusion);
+
 /// Least channels that hold an image of data: 1 when r = g = b and alpha is 255, 4 otherwise.
 [[nodiscard]] int channels_needed(const Image& image);
 

@@ -81,16 +81,17 @@ std::uint32_t TextureStore::get(const Scene& scene, const Texture& texture, cons
     return upload(fitted_image(scene, texture, use.kind, notices), texture, use, -1);
 }
 
-std::uint32_t TextureStore::get_packed(const Scene& scene, const Texture& normals, const Texture& metallic_roughness,
-                                       std::vector<std::string>& notices) {
+std::uint32_t TextureStore::get_packed(const Scene& scene, const Texture& first, const Texture& second,
+                                       const TextureUse& use, std::vector<std::string>& notices) {
     const auto found = std::ranges::find_if(entries_, [&](const Entry& entry) {
-        return entry.texture == normals && entry.packed_with == metallic_roughness.image;
+        return entry.texture == first && entry.packed_with == second.image && entry.use == use;
     });
     if (found != entries_.end()) return found->object.name();
-    const Image first = fitted_image(scene, normals, TexelKind::normal, notices);
-    const Image second = fitted_image(scene, metallic_roughness, TexelKind::data, notices);
-    return upload(packed_surface_map(first, second), normals, {.kind = TexelKind::packed_surface},
-                  metallic_roughness.image);
+    const bool of_surface = use.kind == TexelKind::packed_surface;
+    const Image one = fitted_image(scene, first, of_surface ? TexelKind::normal : use.kind, notices);
+    const Image other = fitted_image(scene, second, TexelKind::data, notices);
+    return upload(of_surface ? packed_surface_map(one, other) : color_with_occlusion(one, other), first, use,
+                  second.image);
 }
 
 void TextureStore::upload_compressed(const Image& image, int level, bool with_alpha, bool decoded) {

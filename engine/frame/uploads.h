@@ -81,8 +81,9 @@ public:
     }
     std::uint32_t get(const Scene& scene, const Texture& texture, const TextureUse& use,
                       std::vector<std::string>& notices);
-    /// packed_surface_map() of two, sampled as the first.
-    std::uint32_t get_packed(const Scene& scene, const Texture& normals, const Texture& metallic_roughness,
+    /// Two textures in one, sampled as the first: packed_surface_map() of normals and metallic-roughness where `use` is of
+    /// kind packed_surface, color_with_occlusion() where it is color.
+    std::uint32_t get_packed(const Scene& scene, const Texture& first, const Texture& second, const TextureUse& use,
                              std::vector<std::string>& notices);
     [[nodiscard]] std::size_t bytes() const { return bytes_; }  ///< mip levels included
     /// What compressing has cost and lost, as a sentence; empty where nothing is compressed.
@@ -91,7 +92,7 @@ public:
 private:
     struct Entry {
         Texture texture;
-        int packed_with;  ///< image of the metallic-roughness map; -1: none
+        int packed_with;  ///< image of the second texture of get_packed(); -1: none
         TextureUse use;
         gl::Texture object;
     };

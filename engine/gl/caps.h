@@ -31,6 +31,7 @@ struct Caps {
     bool desktop = false;       ///< a desktop GL context that runs ES text (OSMesa, GL 4.5)
     bool core_profile = false;  ///< desktop core profile: a vertex array object must be bound
     bool software = false;      ///< a CPU rasteriser (llvmpipe, softpipe, SwiftShader)
+    bool gathers_uniforms = false;  ///< llvmpipe: fragment uniforms are dear; engine/gl/uniforms_by_vertex.h
     bool fragment_highp = true;
     PrecisionFormat fragment_mediump;
     PrecisionFormat fragment_highp_format;

@@ -48,6 +48,7 @@ struct ProgramDescription {
     Dialect dialect = Dialect::es300;
     Arithmetic arithmetic = Arithmetic::full;
     bool fragment_highp = true;  ///< false: the word highp never reaches the fragment stage
+    bool uniforms_by_vertex = false;  ///< the vertex stage hands the fragment stage's uniforms on: same picture
     std::vector<Define> defines;
     std::vector<Insertion> insertions;
     /// Attribute locations, bound before linking.
@@ -69,6 +70,7 @@ struct StageText {
 /// ARITHMETIC_FULL, FRAGMENT_HIGHP, then the description's), dialect/<dialect>.glsl, then the file with its
 /// #include "path" lines resolved (each file once) and each `//@insert point` line replaced by the code of the
 /// insertions that name it, in order. The files of these insertions come, once each, at the line `//@insert_functions`.
+/// With uniforms_by_vertex the vertex stage ends in what hands the fragment stage's uniforms on.
 /// Pure. `files` are all there is to include. Throws Error(input) for a missing file; Mistake for an insertion whose
 /// point exists in neither stage, for files that include each other in a circle, and for full arithmetic without
 /// fragment highp.
@@ -83,7 +85,7 @@ struct StageText {
 class Program {
 public:
     struct Uniform {
-        std::string name;  ///< without "[0]"
+        std::string name;  ///< without "[0]" and kHandedOn
         int location = -1;
         std::uint32_t type = 0;
         int size = 1;
@@ -133,7 +135,8 @@ public:
     [[nodiscard]] std::vector<const Program*> programs() const;  ///< in the order they were made
 
 private:
-    void compile(Program& program, const StageText& vertex, const StageText& fragment);
+    bool compile(Program& program, const StageText& vertex, const StageText& fragment);
+    Program* find_or_make(const ProgramDescription& description);
     bool load_binary(Program& program, const std::string& key);
     void save_binary(const Program& program, const std::string& key);
     [[nodiscard]] std::filesystem::path binary_path(const std::string& key) const;

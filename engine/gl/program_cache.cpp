@@ -15,6 +15,7 @@
 #include "engine/gl/entry_points.h"
 #include "engine/gl/fingerprint.h"
 #include "engine/gl/program.h"
+#include "engine/gl/uniforms_by_vertex.h"
 
 namespace halfframe::gl {
 namespace {
@@ -128,6 +129,7 @@ std::vector<Program::Uniform> read_uniforms(EntryPoints& gl, GLuint program) {
         if (name.starts_with("gl_")) continue;  // gl_DepthRange and the like belong to GL
         uniform.location = gl.GetUniformLocation(program, name.c_str());
         if (name.ends_with("[0]")) name.resize(name.size() - 3);
+        if (name.starts_with(kHandedOn)) name.erase(0, kHandedOn.size());
         uniform.name = name;
         uniform.type = type;
         uniforms.push_back(uniform);
@@ -198,20 +200,32 @@ ProgramCache::ProgramCache(EntryPoints& gl, const Caps& caps, std::filesystem::p
     if (!caps_.program_binary) folder_.clear();
 }
 
-Program& ProgramCache::get(const ProgramDescription& description) {
+Program& ProgramCache::get(const ProgramDescription& asked) {
+    ProgramDescription description = asked;
+    if (caps_.gathers_uniforms && caps_.fragment_highp) {
+        description.uniforms_by_vertex = true;
+        if (Program* program = find_or_make(description)) return *program;
+        description.uniforms_by_vertex = false;  // more than the varyings hold
+    }
+    Program* program = find_or_make(description);
+    expect(program != nullptr, "a program that does not link was not reported");
+    return *program;
+}
+
+Program* ProgramCache::find_or_make(const ProgramDescription& description) {
     const StageText vertex = assemble_stage(description, Stage::vertex, files_);
     const StageText fragment = assemble_stage(description, Stage::fragment, files_);
     const std::string key = key_of(description, vertex, fragment);
     if (const auto known = by_key_.find(key); known != by_key_.end()) {
-        ++statistics_.shared;
-        return *known->second;
+        if (known->second != nullptr) ++statistics_.shared;
+        return known->second;
     }
     auto program = std::make_unique<Program>();
     program->description_ = description;
     if (load_binary(*program, key)) {
         ++statistics_.from_disk;
     } else {
-        compile(*program, vertex, fragment);
+        if (!compile(*program, vertex, fragment)) return by_key_[key] = nullptr;
         ++statistics_.compiled;
         save_binary(*program, key);
     }
@@ -219,11 +233,11 @@ Program& ProgramCache::get(const ProgramDescription& description) {
     program->uniforms_ = read_uniforms(gl_, program->name());
     expect_within_limits(caps_, description, program->uniforms_, vertex, fragment);
     programs_.push_back(std::move(program));
-    by_key_[key] = programs_.back().get();
-    return *programs_.back();
+    return by_key_[key] = programs_.back().get();
 }
 
-void ProgramCache::compile(Program& program, const StageText& vertex_text, const StageText& fragment_text) {
+/// False where it does not link because too much is handed on; every other failure is thrown.
+bool ProgramCache::compile(Program& program, const StageText& vertex_text, const StageText& fragment_text) {
     const ProgramDescription& description = program.description_;
     const Shader vertex = compile_stage(gl_, description, Stage::vertex, vertex_text);
     const Shader fragment = compile_stage(gl_, description, Stage::fragment, fragment_text);
@@ -240,6 +254,7 @@ void ProgramCache::compile(Program& program, const StageText& vertex_text, const
     }
     gl_.LinkProgram(name);
     if (!is_linked(gl_, name)) {
+        if (description.uniforms_by_vertex) return false;
         GLint length = 0;
         gl_.GetProgramiv(name, GL_INFO_LOG_LENGTH, &length);
         std::string log(static_cast<std::size_t>(std::max(length, 1)), '\0');
@@ -251,6 +266,7 @@ void ProgramCache::compile(Program& program, const StageText& vertex_text, const
     }
     gl_.DetachShader(name, vertex.name());
     gl_.DetachShader(name, fragment.name());
+    return true;
 }
 
 std::filesystem::path ProgramCache::binary_path(const std::string& key) const {

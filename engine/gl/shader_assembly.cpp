@@ -7,6 +7,7 @@
 
 #include "engine/error.h"
 #include "engine/gl/program.h"
+#include "engine/gl/uniforms_by_vertex.h"
 
 namespace halfframe::gl {
 namespace {
@@ -85,6 +86,7 @@ private:
         text += stage_ == Stage::vertex ? "#define STAGE_VERTEX 1\n" : "#define STAGE_FRAGMENT 1\n";
         text += full ? "#define ARITHMETIC_FULL 1\n" : "#define ARITHMETIC_HALF 1\n";
         if (description_.fragment_highp) text += "#define FRAGMENT_HIGHP 1\n";
+        if (description_.uniforms_by_vertex) text += "#define UNIFORMS_BY_VERTEX 1\n";
         for (const auto& [name, value] : description_.defines) text += fmt::format("#define {} {}\n", name, value);
     }
 
@@ -262,7 +264,10 @@ StageText assemble_stage(const ProgramDescription& description, Stage stage, std
         return "program \"" + description.name + "\" asks for full arithmetic on a device without fragment highp";
     });
     const std::vector<Insertion> insertions = insertions_of(description, stage, files);
-    return Assembler(description, stage, files).run(insertions);
+    StageText text = Assembler(description, stage, files).run(insertions);
+    if (stage == Stage::vertex && description.uniforms_by_vertex)
+        hand_on_uniforms(text, assemble_stage(description, Stage::fragment, files), description.dialect);
+    return text;
 }
 
 std::string translate_log(std::string_view log, const StageText& stage) {

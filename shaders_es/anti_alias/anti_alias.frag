@@ -7,7 +7,7 @@
 
 FRAGMENT_IN FULL vec2 vertex_uv;
 uniform HALF sampler2D picture;
-uniform FULL vec4 texel;  // xy: one pixel. FULL: 1 / 1280 added to a uv is below half's last bit
+FRAGMENT_UNIFORM FULL vec4 texel;  // xy: one pixel. FULL: 1 / 1280 added to a uv is below half's last bit
 
 //@domain pixels: -8..8; FULL vec2 vertex_uv: 0..1; FULL vec4 texel: 0..0.01; HALF sampler2D picture: 0..1
 //@exempt half_flushed, es_minimum: within 3.0 * exp2(-14.0); the three products of edge_luma

@@ -3,7 +3,7 @@
 
 FRAGMENT_IN FULL vec2 vertex_uv;
 uniform HALF sampler2D image;
-uniform FULL vec4 texel;  // xy: one texel in the direction of the blur. FULL: as in bloom_bright.frag
+FRAGMENT_UNIFORM FULL vec4 texel;  // xy: one texel in the direction of the blur. FULL: as in bloom_bright.frag
 
 // Both taps at that distance.
 //@domain apart: -0.1..0.1; FULL vec2 vertex_uv: 0..1; HALF sampler2D image: 0..8

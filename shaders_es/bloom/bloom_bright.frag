@@ -4,7 +4,7 @@
 
 FRAGMENT_IN FULL vec2 vertex_uv;
 uniform HALF sampler2D image;
-uniform FULL vec4 texel;  // xy: from one tap to the next. FULL: 1 / 1280 added to a uv is below half's last bit
+FRAGMENT_UNIFORM FULL vec4 texel;  // xy: from one tap to the next. FULL: 1 / 1280 added to a uv is below half's last bit
 
 void main() {
     vec3 sum = vec3(0.0);

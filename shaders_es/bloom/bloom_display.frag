@@ -4,6 +4,6 @@
 
 FRAGMENT_IN FULL vec2 vertex_uv;
 uniform HALF sampler2D image;
-uniform HALF vec4 strength;  // x
+FRAGMENT_UNIFORM HALF vec4 strength;  // x
 
 void main() { fragment_color = vec4(tone_map(bloom_of_stored(sample_2d(image, vertex_uv).rgb) * strength.x), 0.0); }

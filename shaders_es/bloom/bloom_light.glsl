@@ -2,7 +2,7 @@
 #include "bloom/bloom.glsl"
 
 uniform HALF sampler2D bloom;
-uniform FULL vec4 bloom_scale;  // xy: from the frame's uv to the glow's. FULL: it multiplies a uv. z strength
+FRAGMENT_UNIFORM FULL vec4 bloom_scale;  // xy: from the frame's uv to the glow's. FULL: it multiplies a uv. z strength
 
 //@domain uv: 0..1; HALF sampler2D bloom: 0..8; FULL vec4 bloom_scale: 0..1
 //@promise in 0..8; where bloom_scale.z == 0.0: result == vec3(0.0)

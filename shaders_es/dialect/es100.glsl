@@ -4,6 +4,11 @@
 #define VERTEX_IN attribute
 #define VERTEX_OUT varying
 #else
+#ifdef UNIFORMS_BY_VERTEX
+#define FRAGMENT_UNIFORM varying  // the vertex stage hands it on: engine/gl/uniforms_by_vertex.h
+#else
+#define FRAGMENT_UNIFORM uniform
+#endif
 #define FRAGMENT_IN varying
 #define fragment_color gl_FragColor
 #endif

@@ -4,6 +4,11 @@
 #define VERTEX_IN in
 #define VERTEX_OUT out
 #else
+#ifdef UNIFORMS_BY_VERTEX
+#define FRAGMENT_UNIFORM flat in  // the vertex stage hands it on: engine/gl/uniforms_by_vertex.h
+#else
+#define FRAGMENT_UNIFORM uniform
+#endif
 #define FRAGMENT_IN in
 layout(location = 0) out HALF vec4 fragment_color;
 #endif

@@ -3,7 +3,7 @@
 #include "environment/environment_by_vertex.glsl"
 
 uniform HALF samplerCube reflection_map;
-uniform HALF vec4 reflection_scale;  // x: root of the range and exposure (RGBM8) or the exposure (float); y: roughest level
+FRAGMENT_UNIFORM HALF vec4 reflection_scale;  // x: root of the range and exposure (RGBM8) or the exposure (float); y: roughest level
 
 #ifdef IRRADIANCE_BY_VERTEX
 FRAGMENT_IN HALF vec3 vertex_irradiance;
@@ -11,7 +11,7 @@ FRAGMENT_IN HALF vec3 vertex_irradiance;
 //@promise in 0..1024; result == vertex_irradiance
 vec3 environment_irradiance(vec3 n) { return vertex_irradiance; }
 #else
-uniform HALF vec4 irradiance_terms[9];
+FRAGMENT_UNIFORM HALF vec4 irradiance_terms[9];
 //@variant TIER_REFERENCE
 //@domain n: unit; HALF vec4 irradiance_terms[9]: -64..64
 //@promise in 0..65504

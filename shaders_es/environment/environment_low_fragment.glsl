@@ -4,7 +4,7 @@
 FRAGMENT_IN HALF vec3 vertex_irradiance;
 uniform HALF samplerCube reflection_map;
 uniform HALF samplerCube rough_reflection_map;
-uniform HALF vec4 reflection_scale;  // x: root of the range and exposure
+FRAGMENT_UNIFORM HALF vec4 reflection_scale;  // x: root of the range and exposure
 
 //@variant TIER_LOW
 //@domain toward: unit; smoothness: 0..1; HALF vec3 vertex_irradiance: 0..64; HALF samplerCube reflection_map: 0..1; HALF samplerCube rough_reflection_map: 0..1; HALF vec4 reflection_scale: 0..8

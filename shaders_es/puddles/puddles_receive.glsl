@@ -2,4 +2,4 @@
 #include "puddles/puddles.glsl"
 #include "wet_surface/wet_surface.glsl"
 
-uniform HALF vec4 puddle_level;  // x 0..1
+FRAGMENT_UNIFORM HALF vec4 puddle_level;  // x 0..1

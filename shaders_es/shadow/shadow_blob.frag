@@ -3,7 +3,7 @@
 #include "shadow/shadow.glsl"
 
 FRAGMENT_IN HALF vec2 from_centre;  // [radii]
-uniform HALF vec4 blob;             // x strength
+FRAGMENT_UNIFORM HALF vec4 blob;             // x strength
 
 void main() {
     float shade = blob_shade(from_centre, blob.x);

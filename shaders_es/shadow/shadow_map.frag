@@ -1,6 +1,6 @@
 // Depth alone; a masked caster leaves out what the mask leaves out, by the rule of surface.frag.
 #ifdef ALPHA_MASK
-uniform HALF vec4 mask;  // x alpha, y cutoff
+FRAGMENT_UNIFORM HALF vec4 mask;  // x alpha, y cutoff
 #ifdef BASE_COLOR_MAP
 uniform HALF sampler2D base_color_map;
 FRAGMENT_IN FULL vec2 vertex_uv;

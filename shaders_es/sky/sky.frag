@@ -5,9 +5,9 @@
 #include "sky/sky.glsl"
 
 FRAGMENT_IN HALF vec3 vertex_ray;
-uniform HALF vec4 zenith;   // display values
-uniform HALF vec4 horizon;
-uniform HALF vec4 ground;
+FRAGMENT_UNIFORM HALF vec4 zenith;   // display values
+FRAGMENT_UNIFORM HALF vec4 horizon;
+FRAGMENT_UNIFORM HALF vec4 ground;
 
 void main() {
     vec3 display = sky_gradient(normalize(vertex_ray).y, zenith.rgb, horizon.rgb, ground.rgb);

@@ -31,31 +31,37 @@ FRAGMENT_IN HALF vec4 vertex_color;
 #endif
 
 // The CPU multiplies every light, the ambient and the emission by the exposure: no uniform and no operation for it here.
-uniform HALF vec4 base_color;
-uniform HALF vec4 emissive;  // rgb; w alpha cutoff
+FRAGMENT_UNIFORM HALF vec4 base_color;
+FRAGMENT_UNIFORM HALF vec4 emissive;  // rgb; w alpha cutoff
 #ifndef UNLIT
 // x metallic, y roughness, z normal scale; without a map y is the smoothness and w the power, made on the CPU.
-uniform HALF vec4 factors;
-uniform HALF vec4 ambient;  // rgb
-#if defined(OWN_SPECULAR) || defined(SPECULAR_GLOSSINESS) || defined(OCCLUSION_MAP) || defined(OCCLUSION_PACKED)
-uniform HALF vec4 specular_factors;  // rgb specular of a dielectric (or of the material); w occlusion strength
-#endif
-uniform HALF vec4 parallel_eye;  // orthographic: xyz direction to the eye, w 0; else 0, 0, 0, 1
+FRAGMENT_UNIFORM HALF vec4 factors;
+FRAGMENT_UNIFORM HALF vec4 ambient;  // rgb
+FRAGMENT_UNIFORM HALF vec4 specular_factors;  // rgb specular of a dielectric (or of the material); w occlusion strength
+FRAGMENT_UNIFORM HALF vec4 parallel_eye;  // orthographic: xyz direction to the eye, w 0; else 0, 0, 0, 1
 #if defined(PACKED_MAPS) && defined(NORMAL_MAP) && !defined(SPECULAR_GLOSSINESS)
 #define ONE_FETCH  // normal_map: rg normal x and y, b metallic, a roughness; texture_storage.h packs it
 #endif
 #ifdef SUN
-uniform HALF vec4 sun_direction;  // xyz unit, towards the sun
-uniform HALF vec4 sun_color;      // rgb
+FRAGMENT_UNIFORM HALF vec4 sun_direction;  // xyz unit, towards the sun
+FRAGMENT_UNIFORM HALF vec4 sun_color;      // rgb
 #endif
 #ifdef LOCAL_LIGHTS
 #ifdef TIER_LOW
 FRAGMENT_IN HALF vec3 vertex_light;
 #else
+#ifdef COUNTED_LIGHTS  // a loop that ends at a uniform indexes arrays: those stay where they are
 uniform FULL vec4 light_position[LIGHT_SLOTS];   // FULL: metres; xyz from the eye, w = 1 / range^2
 uniform HALF vec4 light_color[LIGHT_SLOTS];      // rgb, w = spot cos_scale (0: point)
 uniform HALF vec4 light_direction[LIGHT_SLOTS];  // xyz unit, w = cos outer
-uniform HALF vec4 light_count;                           // x
+uniform HALF vec4 light_count;                   // x
+#else
+FRAGMENT_UNIFORM FULL vec4 light_position[LIGHT_SLOTS];
+FRAGMENT_UNIFORM HALF vec4 light_color[LIGHT_SLOTS];
+#ifdef SPOT_LIGHTS
+FRAGMENT_UNIFORM HALF vec4 light_direction[LIGHT_SLOTS];
+#endif
+#endif
 #ifdef AREA_LIGHTS
 uniform FULL vec4 light_size[LIGHT_SLOTS];  // FULL: metres squared; x radius [m], y radius^2; 0: a point
 #endif
@@ -74,7 +80,11 @@ void main() {
 #endif
 #ifdef BASE_COLOR_MAP
     base.rgb *= base_texel(base_color_map, BASE_COLOR_AT);
+#ifdef OCCLUSION_IN_BASE
+    float base_occlusion = sample_2d(base_color_map, BASE_COLOR_AT).a;  // opaque: alpha means nothing
+#else
     base.a *= sample_2d(base_color_map, BASE_COLOR_AT).a;
+#endif
 #endif
 #ifdef ALPHA_MASK
     if (base.a < emissive.w) discard;
@@ -171,6 +181,10 @@ void main() {
     //@insert surface.ambient
 #if defined(OCCLUSION_MAP)
     float arriving = occlusion_share(sample_2d(occlusion_map, OCCLUSION_AT).r, specular_factors.w);
+    diffuse_light *= arriving;
+    mirrored_light *= arriving;
+#elif defined(OCCLUSION_IN_BASE) && defined(BASE_COLOR_MAP)
+    float arriving = occlusion_share(base_occlusion, specular_factors.w);
     diffuse_light *= arriving;
     mirrored_light *= arriving;
 #elif defined(OCCLUSION_PACKED) && defined(METALLIC_ROUGHNESS_MAP)

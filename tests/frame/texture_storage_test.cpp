@@ -118,6 +118,24 @@ TEST(TextureStorage, LevelsOfPackedNormalsPointTheMeanWay) {
     EXPECT_NEAR(std::asin(x) * 57.29578, 22.2, 0.5);  // 0.5: a step of 1/127.5
 }
 
+TEST(TextureStorage, OcclusionComesWithTheColourUnchanged) {
+    const Image color = image_of(16, 16, [](int x, int y) { return std::array{16 * x, 16 * y, x * y, 77}; });
+    const Image occlusion = image_of(16, 16, [](int x, int y) { return std::array{255 - x * y, 1, 2, 3}; });
+    const Image packed = color_with_occlusion(color, occlusion);
+    // Of one size, both are what they were: a step of 1/255 is all that the storage costs.
+    for (std::size_t i = 0; i < packed.rgba.size(); i += 4) {
+        for (std::size_t c = 0; c < 3; ++c) EXPECT_EQ(packed.rgba[i + c], color.rgba[i + c]);
+        EXPECT_EQ(packed.rgba[i + 3], occlusion.rgba[i]);
+    }
+    // A smaller map of occlusion is filtered as the device would: a quarter of the way from 0 to 200.
+    const Image small = image_of(8, 8, [](int x, int) { return std::array{x % 2 == 0 ? 0 : 200, 0, 0, 255}; });
+    EXPECT_EQ(color_with_occlusion(color, small).rgba[4 * 1 + 3], 50);
+    // A smaller colour is filtered in light: a quarter of the way from black to white is a quarter of the light.
+    const Image edge = image_of(2, 2, [](int x, int) { return std::array{255 * x, 255 * x, 255 * x, 255}; });
+    const Image large = image_of(4, 4, [](int, int) { return std::array{9, 0, 0, 255}; });
+    EXPECT_EQ(color_with_occlusion(edge, large).rgba[4 * 1], 137) << "the code of a light of 0.25";
+}
+
 TEST(TextureStorage, AMapOfAnotherSizeIsFiltered) {
     const Image normals = image_of(4, 4, [](int, int) { return std::array{128, 128, 255, 255}; });
     const Image factors = image_of(2, 2, [](int x, int) { return std::array{0, 100 * x, 50, 255}; });

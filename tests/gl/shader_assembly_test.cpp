@@ -176,5 +176,59 @@ TEST(TranslateLog, LeavesTheRestAlone) {
     EXPECT_EQ(translate_log("", stage), "");
 }
 
+constexpr ShaderFile kHandingOn[] = {
+    {"dialect/es100.glsl", ""},
+    {"dialect/es300.glsl", ""},
+    {"a.vert", "void main() {\n    gl_Position = vec4(0.0);\n}\n"},
+    {"a.frag",
+     "FRAGMENT_UNIFORM HALF vec4 color;  // rgb\n"
+     "#ifdef TERMS\n"
+     "FRAGMENT_UNIFORM FULL vec4 terms[9];\n"
+     "#endif\n"
+     "uniform HALF vec4 stays;\n"
+     "void main() {\n}\n"},
+    {"none.frag", "uniform HALF vec4 stays;\nvoid main() {\n}\n"},
+};
+
+ProgramDescription handing_on(const char* fragment, Dialect dialect) {
+    ProgramDescription description;
+    description.name = "test";
+    description.vertex = "a.vert";
+    description.fragment = fragment;
+    description.dialect = dialect;
+    description.uniforms_by_vertex = true;
+    return description;
+}
+
+TEST(UniformsByVertex, TheVertexStageEndsInWhatHandsThemOn) {
+    const StageText text = assemble_stage(handing_on("a.frag", Dialect::es300), Stage::vertex, kHandingOn);
+    EXPECT_NE(text.text.find("#define UNIFORMS_BY_VERTEX 1"), std::string::npos);
+    const std::string end = text.text.substr(text.text.find("void main_of_its_own() {"));
+    EXPECT_EQ(end,
+              "void main_of_its_own() {\n    gl_Position = vec4(0.0);\n}\n"
+              "#line 30001 3\n"
+              "uniform highp vec4 handed_on_color;\nflat out highp vec4 color;\n"
+              "#ifdef TERMS\n"
+              "uniform highp vec4 handed_on_terms[9];\nflat out highp vec4 terms[9];\n"
+              "#endif\n"
+              "void main() {\nmain_of_its_own();\n"
+              "color = handed_on_color;\n"
+              "#ifdef TERMS\nterms = handed_on_terms;\n#endif\n"
+              "}\n");
+    ASSERT_EQ(text.files.size(), 4u);
+    EXPECT_EQ(text.files[3], "<uniforms handed on>");
+}
+
+TEST(UniformsByVertex, Es100InterpolatesThem) {
+    const StageText text = assemble_stage(handing_on("a.frag", Dialect::es100), Stage::vertex, kHandingOn);
+    EXPECT_NE(text.text.find("\nvarying highp vec4 color;\n"), std::string::npos);
+    EXPECT_EQ(text.text.find("flat"), std::string::npos);
+}
+
+TEST(UniformsByVertex, AStageWithoutThemStaysAsItIs) {
+    const StageText text = assemble_stage(handing_on("none.frag", Dialect::es300), Stage::vertex, kHandingOn);
+    EXPECT_EQ(text.text.find("main_of_its_own"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace halfframe::gl

@@ -66,19 +66,37 @@ std::vector<Wish> wishes_of(const Material& material, const DrawMesh& mesh, bool
     return wishes;
 }
 
-/// Normals and metallic-roughness that are read at the same place in the same way come with one fetch, unless occlusion
-/// already shares the texels of metallic-roughness.
-bool packs_maps(const Material& material, const std::vector<Wish>& wishes) {
-    const auto has = [&](std::string_view define) {
-        return std::ranges::find(wishes, define, &Wish::define) != wishes.end();
-    };
-    if (!has("NORMAL_MAP") || !has("METALLIC_ROUGHNESS_MAP")) return false;
+bool has(const std::vector<Wish>& wishes, std::string_view define) {
+    return std::ranges::find(wishes, define, &Wish::define) != wishes.end();
+}
+
+/// Read at the same place in the same way, perhaps from another image.
+bool read_alike(Texture a, const UvMapping& a_uv, const Texture& b, const UvMapping& b_uv) {
+    a.image = b.image;
+    return a == b && a_uv == b_uv;
+}
+
+/// What comes with the fetch of another texture.
+struct Packing {
+    bool roughness_with_normal = false;
+    bool occlusion_with_base = false;
+};
+
+/// Normals take metallic-roughness along. Occlusion goes into the alpha of an opaque colour, which means nothing, unless it
+/// is in the texels of metallic-roughness already and those stay alone.
+Packing packing_of(const Material& material, const std::vector<Wish>& wishes) {
     const Texture& roughness = material.metallic_roughness_texture;
-    const bool occluded = has("OCCLUSION_MAP") && material.occlusion_texture == roughness &&
-                          material.occlusion_uv == material.metallic_roughness_uv;
-    Texture normal = material.normal_texture;
-    normal.image = roughness.image;
-    return !occluded && normal == roughness && material.normal_uv == material.metallic_roughness_uv;
+    const UvMapping& roughness_uv = material.metallic_roughness_uv;
+    const bool occluded = has(wishes, "OCCLUSION_MAP");
+    const bool in_roughness = occluded && has(wishes, "METALLIC_ROUGHNESS_MAP") &&
+                              material.occlusion_texture == roughness && material.occlusion_uv == roughness_uv;
+    const bool fits_normal = has(wishes, "NORMAL_MAP") && has(wishes, "METALLIC_ROUGHNESS_MAP") &&
+                             read_alike(material.normal_texture, material.normal_uv, roughness, roughness_uv);
+    const bool fits_base = occluded && has(wishes, "BASE_COLOR_MAP") && material.alpha_mode == AlphaMode::opaque &&
+                           read_alike(material.base_color_texture, material.base_color_uv, material.occlusion_texture,
+                                      material.occlusion_uv);
+    return {.roughness_with_normal = fits_normal && (!in_roughness || fits_base),
+            .occlusion_with_base = fits_base && (!in_roughness || fits_normal)};
 }
 
 bool same_picture(const Wish& a, const Wish& b) { return *a.texture == *b.texture && *a.uv == *b.uv; }
@@ -130,10 +148,14 @@ SurfaceTextures surface_textures(const Material& material, const DrawMesh& mesh,
     SurfaceTextures result;
     std::vector<Wish> wishes = wishes_of(material, mesh, water_map);
     choose_mappings(material, mesh, wishes, result);
-    const bool packs = packs_maps(material, wishes);
-    if (packs) {
+    const Packing packing = packing_of(material, wishes);
+    if (packing.roughness_with_normal) {
         std::erase_if(wishes, [](const Wish& wish) { return wish.define == "METALLIC_ROUGHNESS_MAP"; });
         result.defines.push_back("PACKED_MAPS");
+    }
+    if (packing.occlusion_with_base) {
+        std::erase_if(wishes, [](const Wish& wish) { return wish.define == "OCCLUSION_MAP"; });
+        result.defines.push_back("OCCLUSION_IN_BASE");
     }
     std::vector<int> free = free_units(wishes, spare_units);
     const auto roughness = std::ranges::find(wishes, "METALLIC_ROUGHNESS_MAP", &Wish::define);
@@ -153,7 +175,9 @@ SurfaceTextures surface_textures(const Material& material, const DrawMesh& mesh,
             free.erase(free.begin());
         }
         SurfaceTexture used{wish.define, wish.sampler, *wish.texture, wish.srgb, {}, unit};
-        if (packs && wish.define == "NORMAL_MAP") used.packed = material.metallic_roughness_texture;
+        if (packing.roughness_with_normal && wish.define == "NORMAL_MAP")
+            used.packed = material.metallic_roughness_texture;
+        if (packing.occlusion_with_base && wish.define == "BASE_COLOR_MAP") used.packed = material.occlusion_texture;
         result.used.push_back(used);
         result.defines.push_back(wish.define);
         if (!(*wish.uv == result.first)) result.defines.push_back(wish.second_define);

@@ -18,7 +18,7 @@ struct SurfaceTexture {
     const char* sampler = nullptr;
     Texture texture;
     bool srgb = false;
-    Texture packed;  ///< NORMAL_MAP only: the metallic-roughness that shares its texels; none: it stands alone
+    Texture packed;  ///< shares its texels: metallic-roughness with NORMAL_MAP, occlusion with BASE_COLOR_MAP; or none
     int unit = 0;
 };
 

@@ -87,7 +87,8 @@ std::array<float, 4> order_of(const Scene& scene, int light) {
 /// How the shader reads one of a material's textures.
 TextureUse use_of(const Material& material, const SurfaceTexture& texture, bool decoded) {
     if (texture.define == "BASE_COLOR_MAP") return base_color_use(material, decoded);
-    if (texture.define == "NORMAL_MAP") return {.kind = TexelKind::normal};
+    if (texture.define == "NORMAL_MAP")
+        return {.kind = texture.packed ? TexelKind::packed_surface : TexelKind::normal};
     return {.decoded = texture.srgb && decoded, .kind = texture.srgb ? TexelKind::color : TexelKind::data};
 }
 
@@ -247,9 +248,10 @@ void SurfaceWork::add_draw(Renderer& renderer, int index) {
     draw.uv_b_mapping = rows_of(textures.second);
     const bool decoded = !low && renderer.caps().srgb_textures;
     for (const SurfaceTexture& texture : textures.used) {
+        const TextureUse use = use_of(material, texture, decoded);
         draw.textures.push_back(
-            {texture.unit, texture.packed ? renderer.packed_texture(texture.texture, texture.packed)
-                                          : renderer.texture(texture.texture, use_of(material, texture, decoded))});
+            {texture.unit, texture.packed ? renderer.packed_texture(texture.texture, texture.packed, use)
+                                          : renderer.texture(texture.texture, use)});
     }
     draws_.push_back(std::move(draw));
 }

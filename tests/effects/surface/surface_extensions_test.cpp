@@ -1,6 +1,7 @@
 // glTF's material extensions and second texture coordinates, drawn, against their definitions in double.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -278,6 +279,54 @@ TEST_F(SurfaceExtensions, AMaterialWithoutThemIsDrawnAsItAlwaysWas) {
     EXPECT_EQ(textures.defines, known);
     EXPECT_TRUE(model_defines(material).empty());
     EXPECT_TRUE(textures.left_out.empty());
+}
+
+TEST_F(SurfaceExtensions, OcclusionOfAnOpaqueColourTakesNoFetch) {
+    DrawMesh mesh;
+    mesh.has_normals = mesh.has_tangents = true;
+    Material material;
+    material.base_color_texture = material.normal_texture = material.metallic_roughness_texture =
+        material.occlusion_texture = kNearest;
+    const auto used = [&] { return surface_textures(material, mesh, std::array{6, 7}, false).used.size(); };
+    for (const int image : {0, 1}) {  // in the texels of metallic-roughness, and in a picture of its own
+        material.occlusion_texture.image = image;
+        const SurfaceTextures textures = surface_textures(material, mesh, {}, false);
+        const std::vector<std::string_view> packed{"PACKED_MAPS", "OCCLUSION_IN_BASE", "BASE_COLOR_MAP", "NORMAL_MAP"};
+        EXPECT_EQ(textures.defines, packed) << image;
+        EXPECT_EQ(textures.used[0].packed, material.occlusion_texture);
+    }
+    material.alpha_mode = AlphaMode::mask;  // its alpha is needed
+    EXPECT_EQ(used(), 3u);
+    material.alpha_mode = AlphaMode::opaque;
+    material.occlusion_texture.wrap_u = Wrap::clamp;  // read unlike the colour
+    EXPECT_EQ(used(), 3u);
+    material.occlusion_texture.wrap_u = material.base_color_texture.wrap_u;
+    material.normal_texture = {};  // then metallic-roughness stays alone, with what its red may bring
+    material.occlusion_texture.image = 0;
+    const SurfaceTextures alone = surface_textures(material, mesh, {}, false);
+    EXPECT_NE(std::ranges::find(alone.defines, "OCCLUSION_PACKED"), alone.defines.end());
+    EXPECT_EQ(alone.used.size(), 2u);
+}
+
+/// The same picture from the fetch of the colour as from one of its own.
+TEST_F(SurfaceExtensions, OcclusionDimsAlikeFromEitherTexture) {
+    Scene scene = wide_square();
+    Material& material = scene.materials[0];
+    scene.images = {one_texel(true, {200, 120, 40, 13}), one_texel(false, {102, 0, 0, 255})};
+    scene.ambient = glm::vec3(0.8f);
+    material.base_color_texture = kNearest;
+    material.occlusion_texture = kNearest;
+    material.occlusion_texture.image = 1;
+    for (const Tier tier : {Tier::low, Tier::console}) {
+        material.occlusion_texture.wrap_u = material.base_color_texture.wrap_u;
+        const Picture packed = display(scene, square_view(), {.tier = tier});
+        material.occlusion_texture.wrap_u = Wrap::mirror;  // read unlike the colour: two fetches
+        const Picture apart = display(scene, square_view(), {.tier = tier});
+        EXPECT_EQ(packed.rgba, apart.rgba) << name(tier);
+        material.occlusion_strength = 0.0f;
+        EXPECT_NE(display(scene, square_view(), {.tier = tier}).rgba, packed.rgba) << name(tier);
+        material.occlusion_strength = 1.0f;
+    }
 }
 
 TEST_F(SurfaceExtensions, NineTexturesAreNeverBound) {

@@ -11,6 +11,7 @@ include(CMakePackageConfigHelpers)
 set(HALFFRAME_PUBLIC_HEADERS
   engine/error.h
   engine/frame/budget.h
+  engine/frame/cost_table.h
   engine/frame/draw_state.h
   engine/frame/effect_card.h
   engine/frame/frame_plan.h

@@ -166,7 +166,8 @@ std::string outside_begins(const Declaration& function) {
     std::string text = function.vertex ? "precision highp float;\nprecision highp int;\n" : "";
     for (const char* word : {"uniform", "attribute", "varying", "flat", "invariant", "VERTEX_IN", "VERTEX_OUT"})
         text += fmt::format("#define {}\n", word);
-    text += "#undef FRAGMENT_IN\n#define FRAGMENT_IN\n#define main declared_main\n";
+    for (const char* word : {"FRAGMENT_IN", "FRAGMENT_UNIFORM"}) text += fmt::format("#undef {0}\n#define {0}\n", word);
+    text += "#define main declared_main\n";
     for (const char* type : {"sampler2D", "sampler3D", "samplerCube", "sampler2DArray"})
         text += fmt::format("#define {} mat2x4\n", type);
     text += "#define sampler2DShadow vec2\n";

@@ -8,7 +8,7 @@
 //   surface.color     color holds what will be stored
 //
 // A material is metallic-roughness (with OWN_SPECULAR where its dielectric is not the default), or SPECULAR_GLOSSINESS, or
-// its colour alone: DISPLAY_COLOR.
+// its colour alone: DISPLAY_COLOR. It is one file because all insertion points lie in one main(), in the order of light.
 #include "surface/surface_limits.h"
 #include "surface/surface_lights.glsl"
 #include "common/maths.glsl"

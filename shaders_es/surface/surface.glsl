@@ -107,7 +107,7 @@ float area_power(float power, float ratio) {
 }
 
 // Light leaving towards v for one direction of light. `radiance` is the light's color (irradiance / pi) at the point.
-//@domain albedo, specular: 0..1; power: 1.75..2048; n, v, l: unit; radiance: 0..250
+//@domain albedo, specular: 0..1; power: 1.75..2048; n, v, l: unit; radiance: 0..400; where (power + 2.0) * max(max(radiance.r, radiance.g), radiance.b) <= 512500.0
 //@exempt half_flushed, es_minimum: within exp2(-14.0) * (1.0 + max(max(radiance.r, radiance.g), radiance.b) * (3.0 + (power + 2.0) * 0.125)); the result and three sums and products are 0 below 2^-14, and Fresnel is before it is multiplied by the peak of the lobe
 //@promise in 0..65504; where dot(n, l) <= 0.0: result == vec3(0.0)
 vec3 direct_light(vec3 albedo, vec3 specular, float power, FULL vec3 n, FULL vec3 v, FULL vec3 l, vec3 radiance) {
@@ -122,7 +122,7 @@ vec3 direct_light(vec3 albedo, vec3 specular, float power, FULL vec3 n, FULL vec
 
 // As direct_light, for a sphere instead of a point: the lobe gets lower and wider and keeps its energy, because the power
 // that widens it normalises it too.
-//@domain albedo, specular, ratio: 0..1; power: 2..2048; n, v, l: unit; radiance: 0..250
+//@domain albedo, specular, ratio: 0..1; power: 2..2048; n, v, l: unit; radiance: 0..400; where (power + 2.0) * max(max(radiance.r, radiance.g), radiance.b) <= 512500.0
 //@exempt half_flushed, es_minimum: within exp2(-14.0) * (1.0 + max(max(radiance.r, radiance.g), radiance.b) * (3.0 + (power + 2.0) * 0.125)); the result and three sums and products are 0 below 2^-14, and Fresnel is before it is multiplied by the peak of the lobe
 //@promise in 0..65504; where dot(n, l) <= 0.0: result == vec3(0.0)
 vec3 sphere_light(vec3 albedo, vec3 specular, float power, FULL vec3 n, FULL vec3 v, FULL vec3 l, vec3 radiance,

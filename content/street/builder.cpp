@@ -25,7 +25,8 @@ constexpr float kUnlitAlong = 56.0f;
 constexpr float kGroundFloor = 4.6f;
 
 constexpr std::size_t kMostLamps = 8;  // that the effect surface draws on one object
-constexpr float kShortestCut = 3.0f;  // a mesh this long is not cut again
+constexpr float kShortestCut = 3.0f;  // a shorter mesh is not cut again [m]
+constexpr float kShortestCutForOne = 6.0f;  // where one lamp is lost, the faintest of nine: each cut costs three draws
 
 /// The triangles whose middle lies below the mean of all middles on an axis, and the others. Corners stay what they are.
 std::pair<Mesh, Mesh> halves(const Mesh& mesh, int axis) {
@@ -260,7 +261,7 @@ void Builder::add_lit(const std::string& name, Mesh mesh, int material) {
     std::ranges::sort(axes, [&](int a, int b) { return size[a] > size[b]; });
     const int lost = lamps_left_out(mesh, material);
     for (const int axis : axes) {
-        if (lost == 0 || size[axis] < kShortestCut) break;
+        if (lost == 0 || size[axis] < (lost == 1 ? kShortestCutForOne : kShortestCut)) break;
         auto [low, high] = halves(mesh, axis);
         if (low.indices.empty() || high.indices.empty()) continue;
         if (std::min(lamps_left_out(low, material), lamps_left_out(high, material)) >= lost) continue;  // gains nothing

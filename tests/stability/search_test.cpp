@@ -234,8 +234,7 @@ protected:
 TEST_F(OnAContext, EveryFunctionHoldsInMediumpAndHighp) {
     const Drawing drawing{gl(), caps(), perf::probe_precision(gl(), caps())};
     std::size_t drawn = 0;
-    // A quarter of the fast effort: the models try the rest, and what they and the context share is the function.
-    for (const FunctionStability& one : all_searched({.combinations = 4096, .drawn = 2048}, &drawing)) {
+    for (const FunctionStability& one : all_searched(kFastEffort, &drawing)) {
         for (const std::string& violation : one.violations) ADD_FAILURE() << violation;
         drawn += tally_of(one, "mediump here").lanes;
         EXPECT_EQ(tally_of(one, "mediump here").lanes, tally_of(one, "half").lanes);

@@ -24,9 +24,9 @@ struct SeenArgument {
 /// What is not recorded, and why; for a report.
 [[nodiscard]] const char* unrecorded_arguments();
 
-/// Draws every built-in scene once for each argument that a fragment of a surface knows, as a census with that argument
-/// in place of the colour, in full arithmetic at the console tier. `step` is called before each picture. The device
-/// takes a census (RGBA32F targets).
+/// Draws every built-in scene with the arguments that a fragment of a surface knows in place of its colour, each in as
+/// many pixels, as a census in full arithmetic at the console tier. `step` is called before each scene. The device takes
+/// a census (RGBA32F targets).
 [[nodiscard]] std::vector<SeenArgument> see_arguments(gl::EntryPoints& gl, const gl::Caps& caps,
                                                       const std::function<void(const std::string& scene)>& step = {});
 

@@ -25,7 +25,10 @@ public:
                                                 "draws nothing");
         command.add_option("SCENE", scene_, "A .gltf or .glb file, or a built-in scene (halfframe scenes)")->required();
         add_scene_options(command, options_);
-        command.add_flag("--json", json_, "Standard output is one JSON value; everything else goes to standard error");
+        command.add_flag(
+            "--json", json_,
+            "Standard output is one JSON value (content/schemas/plan.schema.json); everything else goes to "
+            "standard error");
         command.footer(
             std::string("A context is needed all the same, to read what the device can do. Exit code 1: the plan "
                         "breaks a rule.\n") +

@@ -21,6 +21,7 @@ using shader_ir::Function;
 using shader_ir::Id;
 using shader_ir::Instruction;
 using shader_ir::Module;
+using shader_ir::targets_of;
 
 struct Loop {
     std::size_t header = 0;
@@ -28,19 +29,6 @@ struct Loop {
     double most_rounds = kUnknownRounds;
     double mean_rounds = kUnknownRounds;
 };
-
-std::vector<Id> targets_of(const Instruction& terminator) {
-    switch (terminator.op) {
-        case spv::OpBranch: return {terminator.operands.at(0)};
-        case spv::OpBranchConditional: return {terminator.operands.at(1), terminator.operands.at(2)};
-        case spv::OpSwitch: {
-            std::vector<Id> targets{terminator.operands.at(1)};
-            for (std::size_t i = 3; i < terminator.operands.size(); i += 2) targets.push_back(terminator.operands[i]);
-            return targets;
-        }
-        default: return {};
-    }
-}
 
 class Ways {
 public:

@@ -5,12 +5,15 @@
 #include <array>
 #include <new>
 #include <regex>
+#include <sstream>
 
 #include <fmt/format.h>
 
 #include "content/nearest.h"
 #include "engine/error.h"
 #include "perf/shader_ir/compile.h"
+#include "perf/shader_ir/deep_stack.h"
+#include "perf/shader_ir/loop_rounds.h"
 
 namespace halfframe::cost {
 namespace {
@@ -29,12 +32,17 @@ constexpr const char* kTwin =
     "#define textureCubeLod textureLod\n"
     "#define textureCubeLodEXT textureLod\n"
     "#define textureCubeGradEXT textureGrad\n"
+    "#define gl_FragDepthEXT gl_FragDepth\n";
+
+constexpr const char* kTwinOfColor =
     "#define gl_FragColor halfframe_fragment_color\n"
-    "#define gl_FragDepthEXT gl_FragDepth\n"
     "out mediump vec4 halfframe_fragment_color;\n";
+
+/// A text that names gl_FragData, be it in a remark, and writes gl_FragColor, writes the first of them.
 
 constexpr const char* kTwinOfData =
     "#define gl_FragData halfframe_fragment_data\n"
+    "#define gl_FragColor halfframe_fragment_data[0]\n"
     "out mediump vec4 halfframe_fragment_data[4];\n";
 
 /// Words that mean nothing in ES 1.00 and something in ES 3.00: shaders of the former use them as names.
@@ -72,6 +80,31 @@ std::string with_own_names(const std::string& text) {
         at = end;
     }
     return result;
+}
+
+/// What draws from a camera's picture is counted as a picture like any other.
+constexpr const char* kExternal = "#define samplerExternalOES sampler2D\n";
+
+/// Empties the lines that ask for extensions which change no count and which glslang does not know.
+std::string without_free_extensions(std::string text) {
+    constexpr auto kFree = std::to_array<std::string_view>(
+        {"GL_EXT_draw_buffers", "GL_OES_EGL_image_external", "GL_OES_EGL_image_external_essl3"});
+    for (std::size_t begin = 0; begin < text.size();) {
+        const std::size_t end = std::min(text.find('\n', begin), text.size());
+        std::istringstream line(text.substr(begin, end - begin));
+        std::string mark, word, extension;
+        line >> mark;
+        if (mark == "#") line >> word;
+        if (mark == "#extension" || word == "extension") {
+            std::getline(line >> std::ws, extension, ':');
+            extension.erase(std::min(extension.find_last_not_of(" \t") + 1, extension.size()));
+            if (std::ranges::find(kFree, extension) != kFree.end())
+                std::fill(text.begin() + static_cast<std::ptrdiff_t>(begin),
+                          text.begin() + static_cast<std::ptrdiff_t>(end), ' ');
+        }
+        begin = end + 1;
+    }
+    return text;
 }
 
 struct Versioned {
@@ -127,21 +160,31 @@ const char* name(Precisions precisions) {
 namespace {
 
 CountedStage counted_stage(const std::string& file, const std::string& text, Precisions precisions) {
-    const Versioned shader = versioned(file, text);
+    Versioned shader = versioned(file, text);
+    shader.text = without_free_extensions(std::move(shader.text));
     const bool old = shader.version == 100;
-    if (old) shader_ir::check_es100({.text = "#version 100\n#line 1 0\n" + shader.text, .files = {file}});
+    const bool external = shader.text.find("samplerExternalOES") != std::string::npos;
+    const std::string head = std::string(external ? kExternal : "") + "#line 1 0\n";
+    if (old) shader_ir::check_es100({.text = "#version 100\n" + head + shader.text, .files = {file}});
     gl::StageText stage{.text = "#version 300 es\n", .files = {file}};
     // Appendix A lets the counter of a loop choose a sampler; later versions ask for this extension.
     if (old) stage.text += "#extension GL_EXT_gpu_shader5 : enable\n";
     stage.text += precision_words(precisions);
     if (old) {
         stage.text += kTwin;
-        if (shader.text.find("gl_FragData") != std::string::npos) stage.text += kTwinOfData;
+        stage.text += shader.text.find("gl_FragData") != std::string::npos ? kTwinOfData : kTwinOfColor;
     }
-    stage.text += "#line 1 0\n" + (old ? with_own_names(shader.text) : shader.text);
+    stage.text += head + (old ? with_own_names(shader.text) : shader.text);
+    const shader_ir::Module written = shader_ir::compile(stage, gl::Stage::fragment);
     CountedStage counted{.module = shader_ir::compile(stage, gl::Stage::fragment, shader_ir::Cleaning::optimised)};
     counted.module.up_converted = old;
     counted.counts = count_shader(counted.module);
+    if (external) counted.counts.notices.emplace_back("samplerExternalOES is counted as sampler2D");
+    for (const std::uint32_t line : shader_ir::endless_loops(written))
+        counted.counts.notices.push_back(fmt::format(
+            "{}: nothing ends this loop: no pixel that enters it is ever done, and what such a loop leads to "
+            "is not counted",
+            written.place(line)));
     for (SamplerUse& use : counted.counts.samplers)
         if (use.name.starts_with(kRenamed)) use.name.erase(0, kRenamed.size());
     return counted;
@@ -150,18 +193,21 @@ CountedStage counted_stage(const std::string& file, const std::string& text, Pre
 }  // namespace
 
 CountedStage count_user_shader(const std::string& file, const std::string& text, Precisions precisions) {
+    CountedStage counted;
     try {
-        return counted_stage(file, text, precisions);
+        shader_ir::on_deep_stack([&] { counted = counted_stage(file, text, precisions); });
+        return counted;
     } catch (const Error&) {
         throw;
     } catch (const std::bad_alloc&) {
         throw;
-    } catch (const std::exception& reason) {
-        // A stranger's shader may hold what neither our parser nor SPIRV-Tools knows.
-        throw Error(Fault::check,
-                    fmt::format("{}: compiles, but holds what is not counted ({}); storage buffers, images and atomics "
-                                "of ES 3.10 are not",
-                                file, reason.what()));
+    } catch (const std::exception&) {
+        // A stranger's shader may hold what neither our parser nor SPIRV-Tools knows; what these say helps no stranger.
+        throw Error(
+            Fault::check,
+            fmt::format("{}: compiles, but holds something that is not counted; leave out functions until it is, "
+                        "and the last one left out is the one",
+                        file));
     }
 }
 

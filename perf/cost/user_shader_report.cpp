@@ -1,6 +1,9 @@
 // A user's shader as written, with every precision half, and with every precision full.
 #include "perf/cost/user_shader_report.h"
 
+#include <array>
+#include <future>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -35,9 +38,12 @@ UserShaderCost user_shader_cost(const UserShaderRequest& request) {
                         .target = request.target,
                         .profiles = request.profiles,
                         .compiler = shader_ir::compiler_versions()};
-    for (const Precisions precisions : {Precisions::as_written, Precisions::half, Precisions::full}) {
-        UserShaderVariant variant{.precisions = precisions,
-                                  .stage = count_user_shader(request.file, request.text, precisions)};
+    constexpr std::array kAll{Precisions::as_written, Precisions::half, Precisions::full};
+    std::vector<std::future<CountedStage>> counting;
+    for (const Precisions precisions : kAll)
+        counting.push_back(std::async(std::launch::async, count_user_shader, request.file, request.text, precisions));
+    for (std::size_t i = 0; i < kAll.size(); ++i) {
+        UserShaderVariant variant{.precisions = kAll[i], .stage = counting[i].get()};
         variant.work = user_pass(variant.stage.counts, request.textures, request.target);
         for (const Profile& profile : request.profiles) variant.costs.push_back(cost_of(variant.work, profile));
         cost.variants.push_back(std::move(variant));

@@ -16,6 +16,7 @@
 
 #include "engine/error.h"
 #include "perf/shader_ir/loop_rounds.h"
+#include "perf/shader_ir/spirv_words.h"
 #include "perf/shader_ir/stage_cache.h"
 
 namespace halfframe::shader_ir {
@@ -48,6 +49,9 @@ struct GlslangProcess {
         throw Error(Fault::check, file + ": there is no main(), so there is nothing to compile");
     if (story.find("Recursion detected") != std::string::npos)
         throw Error(Fault::check, file + ": a function calls itself, which GLSL ES does not allow");
+    if (const std::size_t at = story.find("'' :  memory exhausted"); at != std::string::npos)
+        throw Error(Fault::check,
+                    story.substr(0, at) + "nested more deeply than a compiler goes; cut it into functions");
     throw Error(Fault::check, "a shader does not compile to SPIR-V: " + (story.empty() ? file + ": " + log : story));
 }
 
@@ -85,6 +89,7 @@ std::vector<std::uint32_t> spirv_of(const gl::StageText& text, gl::Stage stage) 
     glslang::GlslangToSpv(*tree, words, &logger, &options);
     const std::string complaints = logger.getAllMessages();
     expect(complaints.find("error") == std::string::npos, [&] { return "glslang made bad SPIR-V: " + complaints; });
+    refuse_uncounted(words, text.files);
     return words;
 }
 
@@ -93,6 +98,16 @@ spvtools::MessageConsumer into(std::string& story) {
     return [&story](spv_message_level_t level, const char*, const spv_position_t&, const char* message) {
         if (level <= SPV_MSG_ERROR) story += std::string(message) + ' ';
     };
+}
+
+void expect_valid(const std::vector<std::uint32_t>& words) {
+    std::string story;
+    spvtools::SpirvTools tools(kEnvironment);
+    tools.SetMessageConsumer(into(story));
+    // Names in the validator's sentences are found by trying, which takes minutes where thousands of values share one.
+    spvtools::ValidatorOptions options;
+    options.SetFriendlyNames(false);
+    expect(tools.Validate(words.data(), words.size(), options), [&] { return "SPIR-V that is not valid: " + story; });
 }
 
 /// glslang marks no loop: unrolling is asked for by a bit of OpLoopMerge, its third operand. `wanted`: by loop.
@@ -170,6 +185,8 @@ void register_inlining(spvtools::Optimizer& optimizer) {
         .RegisterPass(spvtools::CreateEliminateDeadFunctionsPass())
         .RegisterPass(spvtools::CreateScalarReplacementPass())
         .RegisterPass(spvtools::CreateLocalAccessChainConvertPass())
+        // Not needed for what comes out: the next one looks at all uses of a variable at each of its uses.
+        .RegisterPass(spvtools::CreateLocalSingleBlockLoadStoreElimPass())
         .RegisterPass(spvtools::CreateSSARewritePass())
         .RegisterPass(spvtools::CreateAggressiveDCEPass());
 }
@@ -185,6 +202,7 @@ void register_optimising(spvtools::Optimizer& optimizer) {
             .RegisterPass(spvtools::CreateDeadBranchElimPass())
             .RegisterPass(spvtools::CreateScalarReplacementPass())
             .RegisterPass(spvtools::CreateLocalAccessChainConvertPass())
+            .RegisterPass(spvtools::CreateLocalSingleBlockLoadStoreElimPass())
             .RegisterPass(spvtools::CreateSSARewritePass())
             .RegisterPass(spvtools::CreateCCPPass())
             .RegisterPass(spvtools::CreateSimplificationPass())
@@ -203,7 +221,10 @@ void run(void (*register_passes)(spvtools::Optimizer&), std::vector<std::uint32_
     optimizer.SetMessageConsumer(into(story));
     register_passes(optimizer);
     std::vector<std::uint32_t> cleaned;
-    expect(optimizer.Run(words.data(), words.size(), &cleaned), [&] { return "SPIRV-Tools gave up: " + story; });
+    spvtools::OptimizerOptions options;
+    options.set_run_validator(false);  // once before and once after all of it is enough: expect_valid()
+    expect(optimizer.Run(words.data(), words.size(), &cleaned, options),
+           [&] { return "SPIRV-Tools gave up: " + story; });
     words = std::move(cleaned);
 }
 
@@ -226,17 +247,13 @@ void check_es100(const gl::StageText& text) {
 
 namespace {
 
-void expect_valid(const std::vector<std::uint32_t>& words) {
-    std::string story;
-    spvtools::SpirvTools tools(kEnvironment);
-    tools.SetMessageConsumer(into(story));
-    expect(tools.Validate(words), [&] { return "SPIR-V that is not valid: " + story; });
-}
-
 StageCache::Kept optimised(const gl::StageText& text, gl::Stage stage) {
     std::vector<std::uint32_t> words = spirv_of(text, stage);
+    expect_valid(words);
     run(register_one_return, words);
+    cut_blocks_of_many_calls(words);
     run(register_inlining, words);
+    cut_chains_of_inserts(words);
     StageCache::Kept kept{.inlined = words};
     ask_to_unroll(words, loops_to_unroll(parse(words, text.files)));
     run(register_optimising, words);
@@ -257,7 +274,10 @@ Module module_of(StageCache::Kept kept, const gl::StageText& text) {
 Module compile(const gl::StageText& text, gl::Stage stage, Cleaning cleaning) {
     if (cleaning == Cleaning::optimised) return module_of(optimised(text, stage), text);
     std::vector<std::uint32_t> words = spirv_of(text, stage);
-    if (cleaning == Cleaning::inlined) run(register_inlining, words);
+    if (cleaning == Cleaning::inlined) {
+        cut_blocks_of_many_calls(words);
+        run(register_inlining, words);
+    }
     expect_valid(words);
     return parse(std::move(words), text.files);
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace halfframe::shader_ir {
 namespace {
@@ -123,6 +124,76 @@ std::vector<bool> loops_to_unroll(const Module& module) {
         }
     }
     return answers;
+}
+
+std::vector<Id> targets_of(const Instruction& terminator) {
+    switch (terminator.op) {
+        case spv::OpBranch: return {terminator.operands.at(0)};
+        case spv::OpBranchConditional: return {terminator.operands.at(1), terminator.operands.at(2)};
+        case spv::OpSwitch: {
+            std::vector<Id> targets{terminator.operands.at(1)};
+            for (std::size_t i = 3; i < terminator.operands.size(); i += 2) targets.push_back(terminator.operands[i]);
+            return targets;
+        }
+        default: return {};
+    }
+}
+
+namespace {
+
+/// Of a branch whose condition is a number of the text only the side that it takes.
+std::vector<Id> possible_targets(const Module& module, const Instruction& terminator) {
+    if (terminator.op != spv::OpBranchConditional) return targets_of(terminator);
+    const auto known = literal(module, terminator.operands.at(0));
+    return known ? std::vector<Id>{terminator.operands.at(*known != 0.0 ? 1 : 2)} : targets_of(terminator);
+}
+
+/// Does a way lead from `header` to the block `merge`, or out of the function?
+bool can_end(const Module& module, const Function& function, std::size_t header, std::size_t merge) {
+    std::set<std::size_t> seen{header};
+    std::vector<std::size_t> open{header};
+    while (!open.empty()) {
+        const Instruction& terminator = function.blocks[open.back()].instructions.back();
+        open.pop_back();
+        if (terminator.op == spv::OpReturn || terminator.op == spv::OpReturnValue || terminator.op == spv::OpKill)
+            return true;
+        for (const Id target : possible_targets(module, terminator)) {
+            const std::size_t to = function.block_at.at(target);
+            if (to == merge) return true;
+            if (seen.insert(to).second) open.push_back(to);
+        }
+    }
+    return false;
+}
+
+std::vector<const Function*> called_by_main(const Module& module) {
+    std::vector<const Function*> called;
+    const auto call = [&](const Function& function) {
+        if (std::ranges::find(called, &function) == called.end()) called.push_back(&function);
+    };
+    for (const Function& function : module.functions)
+        if (function.name == "main" || function.name == "main(") call(function);
+    for (std::size_t i = 0; i < called.size(); ++i)
+        for (const Block& block : called[i]->blocks)
+            for (const Instruction& one : block.instructions)
+                if (one.op == spv::OpFunctionCall) call(module.function(one.operands.at(0)));
+    return called;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> endless_loops(const Module& module) {
+    std::vector<std::uint32_t> lines;
+    for (const Function* function : called_by_main(module)) {
+        for (std::size_t at = 0; at < function->blocks.size(); ++at) {
+            for (const Instruction& one : function->blocks[at].instructions) {
+                if (one.op != spv::OpLoopMerge) continue;
+                if (!can_end(module, *function, at, function->block_at.at(one.operands.at(0))))
+                    lines.push_back(one.line);
+            }
+        }
+    }
+    return lines;
 }
 
 }  // namespace halfframe::shader_ir

@@ -18,4 +18,11 @@ namespace halfframe::shader_ir {
 /// written out? One of unknown rounds is: no compiler can write it out.
 [[nodiscard]] std::vector<bool> loops_to_unroll(const Module& module);
 
+/// Where a block may go on, by its terminator.
+[[nodiscard]] std::vector<Id> targets_of(const Instruction& terminator);
+
+/// Lines of loops that main may enter and that no condition, return or discard ends, as far as the text tells: of a
+/// module as glslang writes it, for what cannot be left is cleaned away.
+[[nodiscard]] std::vector<std::uint32_t> endless_loops(const Module& module);
+
 }  // namespace halfframe::shader_ir

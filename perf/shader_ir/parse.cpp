@@ -130,7 +130,8 @@ private:
         Type type;
         switch (one.op) {
             case spv::OpTypeVoid:
-            case spv::OpTypeFunction: break;
+            case spv::OpTypeFunction:
+            case spv::OpTypeRuntimeArray: break;  // of storage buffers, which nothing uses: refuse_uncounted()
             case spv::OpTypeBool: type = scalar(Kind::boolean); break;
             case spv::OpTypeInt:
                 type = scalar(Kind::integer);

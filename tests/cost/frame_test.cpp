@@ -119,6 +119,24 @@ TEST(Frames, OutputFollowsThePublishedSchema) {
     EXPECT_EQ(schema_violation(schema_named("cost.schema.json"), broken), "/devices: not of type array");
 }
 
+TEST(Frames, PlansFollowTheirSchema) {
+    const json schema = schema_named("plan.schema.json");
+    json plan;
+    for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+             {"test_room"}, {"empty"}, {"street", "--tier", "low"}, {"charts", "--arithmetic", "full"}}) {
+        std::vector<std::string> arguments{"plan", "--json", "--size", "160x90"};
+        arguments.insert(arguments.end(), words.begin(), words.end());
+        const Answer answer = halfframe(arguments);
+        ASSERT_EQ(answer.code, 0) << answer.err;
+        plan = json::parse(answer.out);
+        EXPECT_EQ(schema_violation(schema, plan), "") << words[0];
+    }
+    plan["estimate"][0]["most"] = 3;
+    EXPECT_EQ(schema_violation(schema, plan), "/estimate/0: unknown key most");
+    plan.erase("broken_rule");
+    EXPECT_EQ(schema_violation(schema, plan), ": without broken_rule");
+}
+
 TEST(Frames, AProfileOfTheUsersStandsAlone) {
     json profile;
     for (const content::DataFile& file : content::data_files())
@@ -219,8 +237,47 @@ TEST(UserShaders, StrangeOnesAreCountedOrRefusedInWords) {
     expect_case(es3 + "float f(float x) { return f(x); }\nvoid main() { c = vec4(f(1.0)); }\n", 1, "calls itself");
     expect_case(
         "#version 310 es\nprecision highp float;\nout vec4 c;\nlayout(binding=0) buffer B { float x[]; };\n"
-        "void main() { c = vec4(x[3]); }\n",
-        1, "not counted");
+        "void main() {\n c = vec4(x[3]); }\n",
+        1, ".frag:6: uses the storage buffer 'B'");
+    expect_case(
+        "#version 310 es\nprecision highp float;\nout vec4 c;\nlayout(rgba8) uniform readonly mediump image2D "
+        "picture;\nvoid main() { c = imageLoad(picture, ivec2(1)); }\n",
+        1, ".frag:5: uses the image 'picture'");
+    expect_case(
+        "#version 310 es\nprecision highp float;\nout vec4 c;\nlayout(binding=0) uniform atomic_uint ticket;\n"
+        "void main() { c = vec4(atomicCounterIncrement(ticket)); }\n",
+        1, ".frag:5: uses the atomic counter 'ticket'");
+    // What is declared and not used is in the way of nothing.
+    expect_case(
+        "#version 310 es\nprecision highp float;\nout vec4 c;\nlayout(binding=0) buffer B { float x[]; };\n"
+        "void main() { c = vec4(1.0); }\n",
+        0, "cost of");
+    expect_case(es3 + "void main() { float x[1000000000]; x[int(a.x)] = 1.0; c = vec4(x[3]); }\n", 1,
+                ".frag:5: 'x' holds 1000000000 numbers");
+    expect_case(es3 + "uniform vec4 many[100000000];\nvoid main() { c = many[int(a.x)]; }\n", 1,
+                "'many' holds 400000000 numbers");
+    // Loops that nothing ends.
+    for (const char* loop : {"while (true)", "for (;;)", "for (int i = 0; 2 > 1; ++i)"})
+        expect_case(es3 + "void main() { vec4 s = a;\n " + loop + " { s = s * 1.5 + a; }\n c = s; }\n", 0,
+                    ".frag:6: nothing ends this loop");
+    expect_case(es3 + "vec4 f(vec4 x) {\n do { x *= a; } while (true);\n return x; }\nvoid main() { c = f(a); }\n", 0,
+                ".frag:6: nothing ends this loop");
+    expect_case("precision mediump float;\nvarying vec4 a;\nvoid main() { gl_FragData[0] = a; }\n", 0, "ES 3.00 twin");
+    expect_case(
+        "#extension GL_EXT_draw_buffers : require\nprecision mediump float;\nvarying vec4 a;\nvoid main() { "
+        "gl_FragData[0] = a; gl_FragData[1] = a * 2.0; }\n",
+        0, "ES 3.00 twin");
+    expect_case(
+        "#extension GL_OES_EGL_image_external : require\nprecision mediump float;\nvarying vec2 a;\n"
+        "uniform samplerExternalOES camera;\nvoid main() { gl_FragColor = texture2D(camera, a); }\n",
+        0, "samplerExternalOES is counted as sampler2D");
+    // One expression of twenty thousand operators, and more parentheses than the compiler has room for.
+    std::string sum = es3 + "void main() { c = a";
+    for (int i = 0; i < 20000; ++i) sum += " + a";
+    expect_case(sum + "; }\n", 0, "20000");
+    const std::string nest(40000, '(');
+    expect_case(es3 + "void main() { c = " + nest + "a" + std::string(nest.size(), ')') + "; }\n", 1,
+                ".frag:5: nested more deeply than a compiler goes");
     // Names that only ES 3.00 has a meaning for.
     expect_case(
         "precision mediump float;\nvarying vec2 v;\nuniform sampler2D texture;\nfloat round(float x) { return "
@@ -239,6 +296,18 @@ TEST(UserShaders, StrangeOnesAreCountedOrRefusedInWords) {
     expect_case(es3 + "void main() { vec4 s = a; for (int i = 100000000; i > 0; --i) s = s * 1.5 + a; c = s; }\n", 0,
                 "at most 100000000 rounds");
     EXPECT_EQ(halfframe({"cost", temporary("halfframe_odd.vert", "void main() {}\n")}).code, 2);
+}
+
+TEST(UserShaders, LoopsThatEndGiveNoWarning) {
+    const std::string file = temporary(
+        "halfframe_ending.frag",
+        "#version 300 es\nprecision highp float;\nin vec4 a;\nout vec4 c;\nvec4 f(vec4 x) { while (true) { x *= a; if "
+        "(x.x > 2.0) return x; } }\nvoid never() { while (true) { } }\nvoid main() { vec4 s = f(a);\n"
+        "  for (;;) { s *= 2.0; if (s.x > 9.0) break; }\n  while (true) { s *= 2.0; if (s.y > 9.0) discard; }\n"
+        "  c = s; }\n");
+    const Answer answer = halfframe({"cost", file});
+    EXPECT_EQ(answer.code, 0) << answer.err;
+    EXPECT_EQ(answer.out.find("nothing ends"), std::string::npos) << answer.out;
 }
 
 TEST(UserShaders, BothLanguagesAreCountedInThreePrecisions) {

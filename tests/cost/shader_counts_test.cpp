@@ -170,6 +170,52 @@ TEST(ShaderCounts, UnrolledHalfStaysHalf) {
     }
 }
 
+/// `statements` times `one` between a declaration of s and its use. Takes minutes where what is cut up for SPIRV-Tools
+/// (spirv_words.h) is not.
+ShaderCounts counts_of_many(const std::string& one, int statements) {
+    std::string text =
+        "in vec4 a; uniform float k; out vec4 color;\nvec3 turned(vec3 p) { vec3 q = sin(p); return q * k; }\n"
+        "vec3 either(vec3 p) { if (p.x > k) return p; return p * k; }\nvoid main() {\n  vec4 s = a;\n";
+    for (int i = 0; i < statements; ++i) text += one;
+    return counts_of(text + "  color = s;\n}\n");
+}
+
+TEST(ShaderCounts, ThousandsOfStatementsCountAsManyTimesOne) {
+    struct Long {
+        const char* statement;
+        double slots;  ///< of one
+    };
+    for (const Long& wanted : {Long{"  s = s * k + a;\n", 1.0},  // a multiply-add
+                                                                 // Sines and a product of three components.
+                               Long{"  s.xyz = turned(s.xyz);\n", 1.5 * 2.0 * 0.75 + 1.5},
+                               Long{"  s.y = s.x * k;\n  s.x = sin(s.y);\n", 1.5}}) {
+        // The difference of two lengths, so that what the ends cost falls out.
+        const double slots = counts_of_many(wanted.statement, 1500).weighted.work.slots -
+                             counts_of_many(wanted.statement, 500).weighted.work.slots;
+        EXPECT_DOUBLE_EQ(slots, 1000.0 * wanted.slots) << wanted.statement;
+    }
+}
+
+TEST(ShaderCounts, CutBlocksKeepTheirWaysAndLines) {
+    // Calls on both sides of `&&`, whose value a phi takes from the block that the calls before it end.
+    std::string text =
+        "in vec4 a; uniform float k; out vec4 color;\nvec3 f(vec3 p) {\n  return sin(p) * k;\n}\n"
+        "void main() {\n  vec3 s = a.xyz;\n  if (a.w > k) {\n";
+    for (int i = 0; i < 200; ++i) text += "    s = f(s);\n";
+    text += "    bool both = s.x > k && f(s).y > k;\n    if (both) discard;\n  }\n  color = vec4(s, 1.0);\n}\n";
+    const shader_ir::Module module = module_of(text);
+    const ShaderCounts counts = count_shader(module);
+    EXPECT_TRUE(counts.discards);
+    int sines = 0;
+    for (const CountedInstruction& one : counts.instructions) {
+        EXPECT_NE(module.place(one.line), "an unknown line") << one.what;
+        if (one.what != "sin") continue;
+        ++sines;
+        EXPECT_EQ(module.place(one.line), "<test>:3");
+    }
+    EXPECT_EQ(sines, 201);
+}
+
 TEST(ShaderCounts, LinesAreThoseOfTheText) {
     const shader_ir::Module module = module_of(
         "in vec4 a; uniform vec4 u; out vec4 color;\nvec4 twice(vec4 x) {\n  return sin(x);\n}\nvoid main() {\n"

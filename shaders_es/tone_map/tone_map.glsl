@@ -2,13 +2,13 @@
 // already in display (gamma) space. S. Lagarde and L. Harduin, GDC Europe 2013, "LDR sky".
 #include "tone_map/tone_map_limits.h"
 
-// light >= 0, any size: above 8 it is 8 (white). Clamping first keeps half from inf / inf.
+// light >= 0, any size: above 8 it is 8 (white). Clamping first keeps half from inf / inf. Multiplied last: a product just
+// under the divisor and the divisor would each lose up to a step of a result just under 1, the quotient here half of one.
 //@domain light: 0..65504
-//@exempt half, half_flushed, es_minimum: at most 1.1 times; three roundings of one step: a third of a code
 //@promise in 0..1; rising light; where light == vec3(8.0): within(result, vec3(1.0), slack)
 vec3 tone_map(vec3 light) {
     vec3 x = min(light, vec3(TONE_MAP_RANGE));
-    return TONE_MAP_B * x / (x + TONE_MAP_A);
+    return x / (x + TONE_MAP_A) * TONE_MAP_B;
 }
 
 // display 0..1 to light 0..8. The slope reaches 299 at 1, so one 8-bit step at the top is one whole unit of light.

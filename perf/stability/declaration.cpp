@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <regex>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -38,7 +39,8 @@ std::vector<std::string> split(std::string_view text, char separator) {
     return parts;
 }
 
-/// The numbers or vectors that a value of the type is made of, before any array; no pieces: nothing can be given for it.
+/// The numbers or vectors that a value of the type is made of, before any array; no pieces: nothing can be given for
+/// it.
 struct Shape {
     int pieces = 0, piece = 0;
     bool whole = false;
@@ -77,6 +79,7 @@ void read_range(const Declaration& function, const std::string& text, double& lo
     high = number_of(function, trimmed(text.substr(dots + 2)));
     if (std::isinf(low) || std::isinf(high))
         refuse(function, "the range '" + text + "' has no end; write 'any' for everything there is, NaN and inf too");
+    if (std::isnan(low) || std::isnan(high)) refuse(function, "the range '" + text + "' has an end that is no number");
     if (!(low <= high)) refuse(function, "the range '" + text + "' is upside down");
 }
 
@@ -332,6 +335,7 @@ void declare_outside(Declaration& function, const std::string& text) {
 }  // namespace
 
 void declare_domain(Declaration& function, std::string_view text) {
+    std::set<std::string> said;
     for (const std::string& item : split(text, ';')) {
         if (item.starts_with("where ")) {
             function.where = item.substr(6);
@@ -342,10 +346,12 @@ void declare_domain(Declaration& function, std::string_view text) {
         const std::string range = trimmed(item.substr(colon + 1));
         if (trimmed(item.substr(0, colon)).empty()) refuse(function, "'" + item + "' names no parameter");
         for (const std::string& name : split(item.substr(0, colon), ',')) {
+            if (!said.insert(name.substr(name.rfind(' ') + 1)).second)
+                refuse(function, "'" + name + "' is given two domains; keep one");
             if (name.find(' ') != std::string::npos) declare_outside(function, name);
-            DeclaredParameter& parameter =
-                name.find(' ') != std::string::npos ? function.parameters.back()
-                                                    : function.parameters[parameter_called(function, name)];
+            DeclaredParameter& parameter = name.find(' ') != std::string::npos
+                                               ? function.parameters.back()
+                                               : function.parameters[parameter_called(function, name)];
             if (range == "unit" || (range == "any" && !parameter.whole)) {
                 parameter.domain.kind = range == "unit" ? Domain::Kind::unit : Domain::Kind::any;
                 if (range == "unit" && (parameter.components < 2 || parameter.pieces() > 1 || parameter.whole))
@@ -367,19 +373,22 @@ std::string gap_in(const Declaration& function) {
     const std::string subject = fmt::format("{}: {} ", function.place(), function.name);
     for (const DeclaredParameter& parameter : function.signature) {
         if (parameter.components == 0)
-            return fmt::format("{}has the parameter '{}', of a type that nothing can be given for; write a function of "
-                               "what it reads of it beside it, or //@not_run and a reason",
-                               subject, parameter.text);
+            return fmt::format(
+                "{}has the parameter '{}', of a type that nothing can be given for; write a function of "
+                "what it reads of it beside it, or //@not_run and a reason",
+                subject, parameter.text);
     }
     if (function.returned == 0)
-        return fmt::format("{}returns {}: nothing comes back that could be judged. If it writes a variable, say which "
-                           "in a line such as //@writes vec3 light; else //@not_run and a reason",
-                           subject, function.returned_type);
+        return fmt::format(
+            "{}returns {}: nothing comes back that could be judged. If it writes a variable, say which "
+            "in a line such as //@writes vec3 light; else //@not_run and a reason",
+            subject, function.returned_type);
     for (const DeclaredParameter& parameter : function.parameters) {
         if (parameter.domain.kind == Domain::Kind::missing)
-            return fmt::format("{}says nothing of its parameter '{}'; write a line such as //@domain {}: 0..1 above it, "
-                               "or say it with --domain",
-                               subject, parameter.name, parameter.name);
+            return fmt::format(
+                "{}says nothing of its parameter '{}'; write a line such as //@domain {}: 0..1 above it, "
+                "or say it with --domain",
+                subject, parameter.name, parameter.name);
     }
     return {};
 }

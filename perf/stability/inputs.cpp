@@ -132,7 +132,9 @@ InputSource::InputSource(const Subject& subject, const Effort& effort)
         }
     }
     for (const Axis& axis : axes_) {
-        expect(!axis.values.empty(), [&] { return function.place() + ": a domain without any half in it"; });
+        if (axis.values.empty())
+            throw Error(Fault::usage, function.place() + ": no half lies in the domain of " + function.name +
+                                          "; half ends at 65504, and what is larger is for FULL parameters");
         combinations_ *= static_cast<double>(axis.values.size());
     }
     every_combination_ = every_half_ || combinations_ <= static_cast<double>(effort.combinations);

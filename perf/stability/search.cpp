@@ -236,7 +236,11 @@ public:
             result_.lanes += batch.lanes();
             try_all(batch, nullptr, {});
         }
-        expect(result_.lanes > 0, [&] { return subject_.function().place() + ": not one input is in the domain"; });
+        if (result_.lanes == 0)
+            throw Error(Fault::usage,
+                        subject_.function().place() + ": not one input of " + subject_.function().name +
+                            " fulfils its 'where'; it contradicts the ranges, or asks for numbers that are "
+                            "hardly ever met");
         for (const Promise& promise : subject_.function().promises) {
             if (promise.kind == Promise::Kind::rising || promise.kind == Promise::Kind::falling) sweep(promise);
         }
@@ -326,8 +330,8 @@ bool FunctionStability::portable() const {
 
 FunctionStability search(const Subject& subject, const Effort& effort, const Drawing* drawing,
                          const std::function<void(std::size_t done, std::size_t planned)>& step) {
-    // The criterion moves each component by itself, so the work grows with their square. What hands on uniforms gets fewer
-    // inputs for it: the plain function that it calls gets them all.
+    // The criterion moves each component by itself, so the work grows with their square. What hands on uniforms gets
+    // fewer inputs for it: the plain function that it calls gets them all.
     Effort scaled = effort;
     constexpr std::size_t kUsual = 12;
     if (!subject.function().plain() && subject.components() > kUsual) {

@@ -95,11 +95,10 @@ std::vector<gl::ShaderFile> files_for(const Declaration& function, const std::st
 
 shader_ir::Module compiled(const std::vector<std::string>& paths, const std::string& variant, const std::string& more,
                            std::span<const gl::ShaderFile> files) {
-    return shader_ir::compile(shader_ir::FunctionFiles{.paths = paths,
-                                                       .arithmetic = gl::Arithmetic::half,
-                                                       .defines = defines_of(variant),
-                                                       .more_text = more},
-                              files);
+    return shader_ir::compile(
+        shader_ir::FunctionFiles{
+            .paths = paths, .arithmetic = gl::Arithmetic::half, .defines = defines_of(variant), .more_text = more},
+        files);
 }
 
 bool defines_function(const shader_ir::Module& module, const std::string& name) {
@@ -152,16 +151,18 @@ Subject::Subject(Declaration function, std::string variant, std::span<const gl::
     }
     files_ = files_for(function_, outside_, own_text_, files);
     const auto missing = [&] {
-        return Error(Fault::check,
-                     fmt::format("{}: {} does not exist where {} is defined; name the defines that it stands under in a "
-                                 "line //@variant above it",
-                                 function_.place(), function_.name, variant_));
+        return Error(
+            Fault::check,
+            fmt::format("{}: {} does not exist where {} is defined; name the defines that it stands under in a "
+                        "line //@variant above it",
+                        function_.place(), function_.name, variant_));
     };
     try {
         module_ = compiled(paths_, variant_, helpers_, files_);
     } catch (const Error& error) {
         // Is it the text, or what was made of the declaration?
-        if (!defines_function(compiled(paths_, variant_, outside_.empty() ? "" : outside_ends(), files_), function_.name))
+        if (!defines_function(compiled(paths_, variant_, outside_.empty() ? "" : outside_ends(), files_),
+                              function_.name))
             throw missing();
         throw Error(Fault::check, fmt::format("{}: what is declared above {} does not compile with it: {}",
                                               function_.place(), function_.name, error.what()));
@@ -221,6 +222,11 @@ void Subject::refuse_unset(const shader_ir::Function& called) const {
                 if (one.op == spv::OpAccessChain) root[one.result] = variable(one.operands[0]);
                 if (one.op == spv::OpStore) stored.insert(variable(one.operands[0]));
                 if (one.op == spv::OpLoad) loaded.insert(variable(one.operands[0]));
+                if (one.op == spv::OpKill)
+                    throw Error(Fault::check,
+                                fmt::format("{}: {} discards, and a fragment that is gone has no number; write its "
+                                            "condition as a function of its own and try that",
+                                            function_.place(), function_.name));
                 if (one.op == spv::OpFunctionCall) waiting.push_back(&module_.function(one.operands[0]));
             }
         }

@@ -81,5 +81,33 @@ TEST(StabilityCommand, WhatContradictsItselfIsUsage) {
     EXPECT_EQ(stability({broken}).exit_code, 3);
 }
 
+TEST(StabilityCommand, OddDomainsAndFunctionsAreRefusedInWords) {
+    const std::string file = testing::TempDir() + "halfframe_odd.glsl";
+    std::ofstream(file) << "precision mediump float;\nfloat plain(float x) { return x; }\n"
+                           "float gone(float x) { if (x > 2.0) discard; return x; }\n"
+                           "float calls(float x) { return gone(x) * 2.0; }\n"
+                           "float forever(float x) { while (true) { x *= 1.5; } return x; }\n";
+    struct Odd {
+        const char* function;
+        const char* domain;
+        int code;
+        const char* says;
+    };
+    for (const Odd& odd :
+         {Odd{"plain", "x: 1..0", 2, "upside down"}, Odd{"plain", "x: nan..1", 2, "no number"},
+          Odd{"plain", "x: 0..nan", 2, "no number"}, Odd{"plain", "x: 0..inf", 2, "has no end"},
+          Odd{"plain", "x: 1e30..1e31", 2, "no half lies in the domain of plain"},
+          Odd{"plain", "x: 0..1; where x > 5.0", 2, "not one input of plain"},
+          Odd{"plain", "x: 0..1; x: 0..2", 2, "'x' is given two domains"},
+          Odd{"plain", "y: 0..1", 2, "no parameter is called 'y'"},
+          Odd{"plain", "x: 0..1; where nonsense(x)", 3, "nonsense"}, Odd{"gone", "x: 0..3", 3, "gone discards"},
+          Odd{"calls", "x: 0..3", 3, "calls discards"}, Odd{"forever", "x: 0..1", 1, "a loop that does not end"}}) {
+        const process::ChildResult result = stability({file, "--function", odd.function, "--domain", odd.domain});
+        EXPECT_EQ(result.exit_code, odd.code) << odd.domain << result.story();
+        EXPECT_NE(in_one_line(result.errors).find(odd.says), std::string::npos) << odd.domain << result.story();
+        EXPECT_EQ(result.errors.find("internal error"), std::string::npos) << result.story();
+    }
+}
+
 }  // namespace
 }  // namespace halfframe::harness

@@ -42,6 +42,8 @@ struct ShaderVariant {
     std::string_view vertex;
     std::string_view fragment;
     std::string_view defines;  ///< names, space separated
+    /// Those of them that put something simpler in the place of what others add: a program "with all" is without these.
+    std::string_view simpler = {};
 };
 
 /// What one tier of an effect is.

@@ -31,6 +31,14 @@ std::vector<std::string_view> words_of(std::string_view words) {
     return list;
 }
 
+/// All defines of a program that add something.
+std::vector<std::string_view> all_defines(const ShaderVariant& variant) {
+    std::vector<std::string_view> defines = words_of(variant.defines);
+    const std::vector<std::string_view> simpler = words_of(variant.simpler);
+    std::erase_if(defines, [&](std::string_view one) { return std::ranges::find(simpler, one) != simpler.end(); });
+    return defines;
+}
+
 Json counts_json(const ShaderCounts& counts, const Profile& ps3) {
     FragmentWork fragment{.work = counts.weighted.work};
     for (const double count : counts.weighted.fetches) fragment.fetches.push_back({.count = count});
@@ -51,7 +59,7 @@ public:
     Marginal(ShaderLibrary& library, const InsertionRow& row, Tier tier, gl::Arithmetic arithmetic, bool all)
         : arithmetic_(arithmetic),
           without_(describe_variant(*row.host, row.variant, tier, arithmetic, true,
-                                    all ? words_of(row.variant.defines) : std::vector<std::string_view>{})),
+                                    all ? all_defines(row.variant) : std::vector<std::string_view>{})),
           with_(without_),
           library_(library) {
         with_.insertions = row.insertions;
@@ -112,7 +120,7 @@ std::string effect_table_text() {
                 for (const gl::Arithmetic arithmetic : {gl::Arithmetic::half, gl::Arithmetic::full}) {
                     for (const bool all : {false, true}) {
                         const std::vector<std::string_view> defines =
-                            all ? words_of(variant.defines) : std::vector<std::string_view>{};
+                            all ? all_defines(variant) : std::vector<std::string_view>{};
                         if (all && defines.empty()) continue;
                         const gl::ProgramDescription description =
                             describe_variant(*card, variant, static_cast<Tier>(tier), arithmetic, true, defines);

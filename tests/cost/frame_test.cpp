@@ -1,6 +1,7 @@
 // Whole frames through the command, as a child process: counts, repeatability, tables, errors.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -157,7 +158,7 @@ TEST(Frames, WhyListsInstructionsUnderTheirLines) {
     const Answer why = halfframe({"cost", "test_room", "--size", "64x36", "--why", "tone_map"});
     EXPECT_EQ(why.code, 0) << why.err;
     expect_in(why.out, "tone_map/tone_map.glsl:11");
-    expect_in(why.out, "TONE_MAP_B * x / (x + TONE_MAP_A)");
+    expect_in(why.out, "x / (x + TONE_MAP_A) * TONE_MAP_B");
     expect_in(why.out, "half divide vec3");
     expect_in(why.out, "no mediump hardware was measured");
     const Answer wrong = halfframe({"cost", "test_room", "--size", "64x36", "--why", "tonemap"});
@@ -165,21 +166,79 @@ TEST(Frames, WhyListsInstructionsUnderTheirLines) {
     expect_in(wrong.err, "this frame has no such pass; it has shadow");
 }
 
+/// One breach of the trace event format as Perfetto reads it, or nothing. Complete events and names alone are known.
+std::string trace_breach(const json& trace) {
+    using Track = std::pair<int, int>;
+    std::set<Track> named, used;
+    std::set<int> processes;
+    std::map<Track, double> ends;
+    std::map<int, std::vector<std::pair<double, double>>> passes;  // by process: start and end on the first thread
+    for (const json& event : trace.at("traceEvents")) {
+        const Track track{event.at("pid").get<int>(), event.at("tid").get<int>()};
+        const json& words = event.at("name");
+        if (!words.is_string() || words.get<std::string>().empty()) return "a name that is no text: " + event.dump();
+        if (event.at("ph") == "M") {
+            const bool process = words == "process_name";
+            if (!process && words != "thread_name") return "an unknown name: " + event.dump();
+            if (event.at("args").at("name").get<std::string>().empty()) return "a name of nothing: " + event.dump();
+            if (!(process ? processes.insert(track.first).second : named.insert(track).second))
+                return "named twice: " + event.dump();
+            continue;
+        }
+        if (event.at("ph") != "X") return "an unknown event: " + event.dump();
+        const double start = event.at("ts").get<double>(), length = event.at("dur").get<double>();
+        if (!std::isfinite(start) || !std::isfinite(length) || start < 0.0 || length < 0.0)
+            return "no time: " + event.dump();
+        constexpr double kSlack = 1e-6;  // of microseconds: sums of doubles
+        if (start + kSlack < ends[track]) return "begins inside the one before it: " + event.dump();
+        ends[track] = start + length;
+        used.insert(track);
+        auto& slices = passes[track.first];
+        if (track.second == 0) slices.emplace_back(start, start + length);
+        else if (slices.empty() || start + kSlack < slices.back().first ||
+                 start + length > slices.back().second + kSlack)
+            return "a unit that is not inside its pass: " + event.dump();
+    }
+    for (const Track& track : used)
+        if (!named.contains(track) || !processes.contains(track.first)) return "a thread or process without a name";
+    return used.empty() ? "no events" : "";
+}
+
 TEST(Frames, TraceAndCsv) {
     const std::string trace = temporary("halfframe_trace.json", ""), csv = temporary("halfframe_cost.csv", "");
-    const Answer result = halfframe({"cost", "test_room", "--size", "64x36", "--trace", trace, "--csv", csv});
+    const Answer result = halfframe({"cost", "test_room", "--size", "64x36", "--trace", trace, "--csv", csv, "--json"});
     ASSERT_EQ(result.code, 0) << result.err;
     std::ifstream stream(trace);
-    const json events = json::parse(stream).at("traceEvents");
-    std::set<int> processes;
-    std::set<std::string> names;
-    for (const json& event : events) {
-        processes.insert(event.at("pid").get<int>());
-        if (event.at("name") == "process_name") names.insert(event.at("args").at("name").get<std::string>());
-        EXPECT_TRUE(event.at("ph") != "X" || event.at("dur").get<double>() >= 0.0) << event;
+    json written = json::parse(stream);
+    EXPECT_EQ(trace_breach(written), "");
+    EXPECT_EQ(written.at("displayTimeUnit"), "ms");
+    std::map<int, std::string> names;
+    std::map<int, double> lengths;  // of the frame, in microseconds
+    for (const json& event : written.at("traceEvents")) {
+        if (event.at("name") == "process_name") names[event.at("pid")] = event.at("args").at("name").get<std::string>();
+        if (event.at("ph") == "X" && event.at("tid") == 0) lengths[event.at("pid")] += event.at("dur").get<double>();
     }
-    EXPECT_EQ(processes.size(), 4u);
-    EXPECT_EQ(names.size(), 4u);
+    ASSERT_EQ(names.size(), 4u);
+    int modelled = 0;
+    const json printed = json::parse(result.out);
+    for (const json& device : printed.at("devices")) {
+        const auto named = std::ranges::find_if(names, [&](const auto& one) {
+            return one.second.starts_with(device.at("profile").get<std::string>() + " (modelled)");
+        });
+        ASSERT_NE(named, names.end()) << device.at("profile");
+        ++modelled;
+        EXPECT_NEAR(lengths[named->first], device.at("frame_ms").get<double>() * 1e3, 1e-6);  // sums of doubles
+    }
+    EXPECT_EQ(modelled, 3);
+    EXPECT_TRUE(std::ranges::any_of(names, [](const auto& one) { return one.second.starts_with("measured here"); }));
+    // The judge sees what is wrong.
+    json broken = written;
+    for (json& event : broken["traceEvents"])
+        if (event.at("ph") == "X") event["ts"] = 0.0;
+    EXPECT_NE(trace_breach(broken).find("begins inside"), std::string::npos);
+    broken = written;
+    broken["traceEvents"].push_back(written.at("traceEvents")[0]);
+    EXPECT_NE(trace_breach(broken).find("named twice"), std::string::npos);
     std::ifstream lines(csv);
     std::size_t count = 0;
     for (std::string line; std::getline(lines, line);) ++count;
@@ -359,6 +418,14 @@ TEST(Tables, CostsOfEffectsAreThoseOfTheShaders) {
     const json table = json::parse(kept);
     EXPECT_EQ(table.at("model_version"), 1);
     EXPECT_GT(table.at("rows").size(), 20u);
+    // With all that adds something in, no effect adds nothing: unlit surfaces, where that is so, are left out.
+    int marginal = 0;
+    for (const json& row : table.at("rows")) {
+        if (!row.contains("marginal") || row.at("defines") != "all") continue;
+        ++marginal;
+        EXPECT_GT(row.at("slots").get<double>() + row.at("fetches").get<double>(), 0.0) << row;
+    }
+    EXPECT_GT(marginal, 10);
 }
 
 /// Passes times the slowdown by temporaries: what the RSX's shader time is proportional to.

@@ -130,6 +130,7 @@ private:
 void add_device(Json& events, int id, const DeviceCost& device) {
     Process process(events, id, device.profile.name + " (modelled): " + device.profile.device);
     process.name("thread_name", 0, "passes");
+    std::vector<std::string> units;  // each on a thread of its own behind that of the passes
     double start_ms = 0.0;
     for (const PassCost& pass : device.passes) {
         process.add(0, pass.name, start_ms, pass.ms,
@@ -137,11 +138,15 @@ void add_device(Json& events, int id, const DeviceCost& device) {
                      {"low_ms", pass.low_ms},
                      {"high_ms", pass.high_ms},
                      {"memory_bytes", pass.memory_bytes}});
-        int thread = 1;
         for (const UnitTime& unit : pass.units) {
-            process.name("thread_name", thread, unit.unit);
-            if (unit.ms > 0.0) process.add(thread, pass.name, start_ms, unit.ms, {{"unit", unit.unit}});
-            ++thread;
+            if (!(unit.ms > 0.0)) continue;
+            const auto place = std::ranges::find(units, unit.unit);
+            const int thread = static_cast<int>(place - units.begin()) + 1;
+            if (place == units.end()) {
+                units.emplace_back(unit.unit);
+                process.name("thread_name", thread, unit.unit);
+            }
+            process.add(thread, pass.name, start_ms, unit.ms, {{"unit", unit.unit}});
         }
         start_ms += pass.ms;
     }

@@ -101,9 +101,10 @@ std::string marked_bar(double value, double limit) {
         value > limit ? " class=\"past\"" : "", std::clamp(100.0 * value / whole, 0.3, 100.0), 100.0 * limit / whole);
 }
 
-std::string bar(const BudgetLine& line) {
-    if (!line.share_of_frame) {
-        const std::optional<double> allowed = allowed_ms(line);
+/// All bars of a page are of one kind: shares that were measured here or, where nothing was, the modelled PS3.
+std::string bar(const BudgetLine& line, bool measured) {
+    if (!measured || !line.share_of_frame) {
+        const std::optional<double> allowed = measured ? std::nullopt : allowed_ms(line);
         return line.modelled_ms[0] && allowed ? marked_bar(*line.modelled_ms[0], *allowed) : "<td class=\"bar\"></td>";
     }
     const double percent = 100.0 * *line.share_of_frame;
@@ -126,7 +127,8 @@ std::size_t source_number(std::vector<std::string>& sources, const BudgetLine& l
     return sources.size();
 }
 
-std::string budget_rows(const BudgetTable& table, std::vector<std::string>& sources, const std::string& id) {
+std::string budget_rows(const BudgetTable& table, std::vector<std::string>& sources, const std::string& id,
+                        bool measured) {
     std::string rows;
     for (std::size_t index = 0; index < table.lines.size(); ++index) {
         if (table.repeats_its_row(index)) {
@@ -150,7 +152,7 @@ std::string budget_rows(const BudgetTable& table, std::vector<std::string>& sour
         rows += cell(line.measured ? ms_text(line.measured->low_ms) + " to " + ms_text(line.measured->high_ms) : "-",
                      "number");
         rows += cell(line.share_of_frame ? fmt::format("{:.1f} %", 100.0 * *line.share_of_frame) : "-", "number");
-        rows += bar(line);
+        rows += bar(line, measured);
         rows += cell(line.bytes > 0 ? bytes_text(line.bytes) : "-", "number");
         const char* style = line.modelled_over.empty() ? style_of(line.verdict) : "why";  // long: it may wrap
         rows += cell(line.verdict_text, style) + "</tr>\n";
@@ -209,16 +211,18 @@ std::string budget_section(const FrameReport& report, const BudgetTable& table, 
         "<th scope=\"col\" rowspan=\"2\" class=\"number\">published</th>"
         "<th scope=\"col\" rowspan=\"2\" class=\"number\">ours</th>"
         "<th scope=\"colgroup\" colspan=\"3\" class=\"group\">modelled</th>"
-        "<th scope=\"colgroup\" colspan=\"4\" class=\"group\">measured here</th>"
+        "<th scope=\"colgroup\" colspan=\"{}\" class=\"group\">measured here</th>{}"
         "<th scope=\"col\" rowspan=\"2\" class=\"number\">writes</th>"
         "<th scope=\"col\" rowspan=\"2\">verdict</th></tr>\n"
         "<tr><th scope=\"col\" class=\"number\">ps3</th><th scope=\"col\" class=\"number\">x360</th>"
         "<th scope=\"col\" class=\"number\">es2</th><th scope=\"col\" class=\"number\">median</th>"
         "<th scope=\"col\" class=\"number\">p25 to p75</th><th scope=\"col\" class=\"number\">of {}</th>"
-        "<th aria-hidden=\"true\"></th></tr></thead>\n",
-        ms_text(table.frame_ms));
+        "{}</tr></thead>\n",
+        report.measurement ? 4 : 3,
+        report.measurement ? "" : "<th scope=\"col\" rowspan=\"2\" aria-hidden=\"true\">ps3, mark: allowed</th>",
+        ms_text(table.frame_ms), report.measurement ? "<th aria-hidden=\"true\"></th>" : "");
     std::vector<std::string> sources;
-    html += "<tbody>" + budget_rows(table, sources, id) + "</tbody></table></div>\n";
+    html += "<tbody>" + budget_rows(table, sources, id, report.measurement.has_value()) + "</tbody></table></div>\n";
 
     html += limits_section(table);
     if (!sources.empty()) {

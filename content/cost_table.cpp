@@ -49,10 +49,11 @@ CostTable cost_table(const std::string& name_or_path) {
     const JsonPlace prices = root.at("prices");
     for (std::size_t i = 0; i < prices.size(); ++i) {
         const JsonPlace row = prices.at(i);
-        row.expect_only({"effect", "tier", "arithmetic", "views", "devices"});
+        row.expect_only({"effect", "tier", "arithmetic", "passes", "views", "devices"});
         const EffectPrice of{.effect = row.at("effect").text(),
                              .tier = word_at(row.at("tier"), tier_from_name, "low, console or reference"),
                              .arithmetic = word_at(row.at("arithmetic"), arithmetic_from, "half or full"),
+                             .passes = row.at("passes").boolean(),
                              .views = static_cast<int>(row.at("views").number(1.0, kMostViews))};
         const JsonPlace each = row.at("devices");
         each.expect_object();

@@ -11,10 +11,11 @@
 
 namespace halfframe {
 
-const EffectPrice* CostTable::find(std::string_view effect, Tier tier, Arithmetic arithmetic,
-                                   std::string_view device) const {
+const EffectPrice* CostTable::find(std::string_view effect, Tier tier, Arithmetic arithmetic, std::string_view device,
+                                   std::optional<bool> passes) const {
     const auto found = std::ranges::find_if(prices, [&](const EffectPrice& price) {
-        return price.effect == effect && price.tier == tier && price.arithmetic == arithmetic && price.device == device;
+        return price.effect == effect && price.tier == tier && price.arithmetic == arithmetic &&
+               price.device == device && price.passes == passes.value_or(price.passes);
     });
     return found != prices.end() ? &*found : nullptr;
 }
@@ -62,7 +63,8 @@ FrameEstimate estimate_frame(const FramePlan& plan, const CostTable& table, std:
     for (const EffectDecision& decision : plan.effects) {
         if (!decision.in) continue;
         EffectEstimate effect{.effect = decision.effect, .tier = decision.tier};
-        if (const EffectPrice* price = table.find(decision.effect, decision.tier, arithmetic, device)) {
+        const bool passes = std::ranges::find(plan.passes, decision.effect, &Pass::effect) != plan.passes.end();
+        if (const EffectPrice* price = table.find(decision.effect, decision.tier, arithmetic, device, passes)) {
             effect.priced = true;
             effect.ms = std::max(0.0, price->fixed_ms + price->ms_per_mpixel * mpixels);
             effect.least_ms = effect.ms * price->least;

@@ -20,6 +20,7 @@ struct EffectPrice {
     Tier tier = Tier::console;
     Arithmetic arithmetic = Arithmetic::half;
     std::string device;  ///< "ps3", "x360", "es2_class"
+    bool passes = true;  ///< of views where it draws passes; false: it only adds code to others' (tone_map without light)
     double fixed_ms = 0.0;
     double ms_per_mpixel = 0.0;
     double least = 1.0;  ///< the cheapest view over the middle, at 1280x720
@@ -31,8 +32,9 @@ struct CostTable {
     int model_version = 0;
     std::string compiler;  ///< that the counts drift with
     std::vector<EffectPrice> prices;
+    /// `passes` empty: the first form that the table has.
     [[nodiscard]] const EffectPrice* find(std::string_view effect, Tier tier, Arithmetic arithmetic,
-                                          std::string_view device) const;
+                                          std::string_view device, std::optional<bool> passes = {}) const;
     [[nodiscard]] std::vector<std::string> devices() const;  ///< in the order of the table
 };
 

@@ -83,7 +83,13 @@ Arithmetic chosen_arithmetic(const Wishes& wishes, const gl::Caps& caps) {
     return *wishes.arithmetic;
 }
 
-PixelFormat chosen_storage(const Wishes& wishes, Tier tier, const gl::Caps& caps, std::vector<std::string>& notices) {
+/// A format of scene_color, and what decided it.
+struct Storage {
+    PixelFormat format;
+    std::string why;
+};
+
+Storage chosen_storage(const Wishes& wishes, Tier tier, const gl::Caps& caps) {
     if (wishes.storage) {
         if (!renders(caps, *wishes.storage)) {
             throw Error(Fault::usage,
@@ -91,19 +97,29 @@ PixelFormat chosen_storage(const Wishes& wishes, Tier tier, const gl::Caps& caps
                                     "that does",
                                     name(*wishes.storage), caps.device));
         }
-        return *wishes.storage;
+        return {*wishes.storage, "it was asked for by name"};
     }
-    if (tier == Tier::low) return PixelFormat::rgba8;
-    if (tier == Tier::reference && renders(caps, PixelFormat::rgba32f)) return PixelFormat::rgba32f;
+    if (tier == Tier::low) return {PixelFormat::rgba8, "tier low stores what is shown"};
+    const std::string why = tier == Tier::reference ? "tier reference stores light" : "";
+    if (tier == Tier::reference && renders(caps, PixelFormat::rgba32f)) return {PixelFormat::rgba32f, why};
     for (const PixelFormat format : kLadder) {
-        if (!renders(caps, format)) continue;
-        if (format != kLadder.front()) {
-            notices.push_back(fmt::format("{} does not render {}, so scene_color is {}", caps.device,
-                                          name(kLadder.front()), name(format)));
-        }
-        return format;
+        if (renders(caps, format)) return {format, why};
     }
     throw Error(Fault::context, fmt::format("{} renders no colour format at all", caps.device));
+}
+
+/// What in a plan that stores light needs it stored, as a sentence, or nothing: then only the pass that maps light
+/// reads it, and whatever draws may map its own.
+std::optional<std::string> need_of_light(const FramePlan& plan, const Wishes& wishes) {
+    if (wishes.reads_light) return "it is read back as light";
+    const int light = plan.target_index("scene_color");
+    for (const Pass& pass : plan.passes) {
+        if (pass.resolves && pass.color == light) return fmt::format("{} averages samples of light", pass.effect);
+        if (pass.blends && pass.color == light) return fmt::format("{} blends light", pass.effect);
+        const bool reads = std::ranges::find(pass.reads, light) != pass.reads.end();
+        if (reads && pass.order != PassOrder::display) return fmt::format("{} reads light", pass.effect);
+    }
+    return std::nullopt;
 }
 
 Tier tier_for(std::string_view effect, Tier tier, const Wishes& wishes, const gl::Caps& caps) {
@@ -256,9 +272,11 @@ int FramePlan::add_scene_color() {
 
 int FramePlan::add_scene_depth() { return add_target("depth", depth_format); }
 
-FramePlan plan_frame(const Scene& scene, const View& view, const Wishes& wishes, const gl::Caps& caps,
-                     std::span<const EffectCard* const> cards) {
-    check_names(wishes, cards);
+namespace {
+
+/// Everything but the choice of storage.
+FramePlan planned(const Storage& storage, const Scene& scene, const View& view, const Wishes& wishes,
+                  const gl::Caps& caps, std::span<const EffectCard* const> cards) {
     FramePlan plan;
     plan.scene = scene.name;
     plan.exposure = view.exposure;
@@ -266,7 +284,8 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Wishes& wishes,
     plan.height = view.height;
     plan.tier = chosen_tier(wishes, caps);
     plan.arithmetic = chosen_arithmetic(wishes, caps);
-    plan.storage = chosen_storage(wishes, plan.tier, caps, plan.notices);
+    plan.storage = storage.format;
+    plan.why_storage = storage.why;
     plan.census = wishes.census;
     plan.fixed_view = wishes.fixed_view;
     plan.vertices = wishes.vertices;
@@ -305,6 +324,32 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Wishes& wishes,
         plan.notices.push_back(
             fmt::format("the targets take {:.1f} bytes a pixel, over the {:.1f} of tier {}: {} was asked for by name",
                         plan.bytes_per_pixel(), bytes_per_pixel_limit(plan.tier), name(plan.tier), name(plan.storage)));
+    }
+    return plan;
+}
+
+}  // namespace
+
+FramePlan plan_frame(const Scene& scene, const View& view, const Wishes& wishes, const gl::Caps& caps,
+                     std::span<const EffectCard* const> cards) {
+    check_names(wishes, cards);
+    const Tier tier = chosen_tier(wishes, caps);
+    Storage storage = chosen_storage(wishes, tier, caps);
+    if (!wishes.storage && tier == Tier::console) {
+        // What reads light shows in the plan that stores it.
+        const PixelFormat light = holds_display_values(storage.format) ? kLadder.front() : storage.format;
+        const auto need = need_of_light(planned({light, ""}, scene, view, wishes, caps, cards), wishes);
+        if (!need)
+            return planned({kLadder.back(), "no pass reads, blends or averages light"}, scene, view, wishes, caps,
+                           cards);
+        storage.why = *need;
+    }
+    FramePlan plan = planned(storage, scene, view, wishes, caps, cards);
+    const bool best = storage.format == kLadder.front() || storage.format == PixelFormat::rgba32f;
+    if (!wishes.storage && tier != Tier::low && !best) {
+        plan.notices.insert(plan.notices.begin(),
+                            fmt::format("{} does not render {}, so scene_color is {}", caps.device,
+                                        name(kLadder.front()), name(storage.format)));
     }
     return plan;
 }

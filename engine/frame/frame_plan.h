@@ -22,7 +22,8 @@ struct Wishes {
     std::vector<std::pair<std::string, Tier>> effect_tiers;     ///< --tier EFFECT=T
     std::vector<std::pair<std::string, bool>> effect_switches;  ///< --set EFFECT.on=0|1: overrules the demand predicate
     std::optional<Arithmetic> arithmetic;                       ///< empty: automatic
-    std::optional<gl::PixelFormat> storage;                     ///< empty: highest of the ladder that renders
+    std::optional<gl::PixelFormat> storage;                     ///< empty: light only where something reads it
+    bool reads_light = false;                                   ///< scene_color is read back as linear light (.exr)
     bool census = false;                                        ///< every colour target RGBA32F, to count NaN and inf
     VertexPrecision vertices = VertexPrecision::half;           ///< bits of positions, directions, UVs and colours
     std::optional<TextureCompression> textures;                 ///< empty: what the device profile says, else none
@@ -60,6 +61,7 @@ struct Pass {
     std::optional<int> color;     ///< target written
     std::optional<int> depth;     ///< depth target bound
     bool writes_color = true;     ///< false: bound and perhaps cleared, but masked
+    bool blends = false;          ///< mixes what it draws with what `color` holds
     bool writes_depth = false;
     StartAction start_color = StartAction::keep;
     StartAction start_depth = StartAction::keep;
@@ -83,6 +85,7 @@ struct FramePlan {
     Tier tier = Tier::console;
     Arithmetic arithmetic = Arithmetic::full;
     gl::PixelFormat storage = gl::PixelFormat::rgba16f;  ///< of scene_color
+    std::string why_storage;                             ///< what decided it: "transparent blends light"
     bool census = false;
     bool fixed_view = false;  ///< Wishes::fixed_view
     VertexPrecision vertices = VertexPrecision::half;
@@ -113,9 +116,12 @@ struct FramePlan {
 /// Is `storage` the 8-bit end of the ladder, where materials store display values themselves?
 [[nodiscard]] inline bool holds_display_values(gl::PixelFormat storage) { return storage == gl::PixelFormat::rgba8; }
 
-/// Plans a frame. Pure: the same arguments give the same plan, and nothing is drawn, opened or allocated on a device.
-/// A wish the device cannot meet (full without fragment highp, a tier above its version, a storage that does not render
-/// when asked for by name) throws Error(usage) with the sentence why and what to try.
+/// Plans a frame. Storage: as wished by name; low stores display values, reference the most precise light. Console
+/// stores light where a pass other than the one that maps it reads, blends or averages it, and else lets every shader
+/// map its own light: the same picture within a code, without a float target and the pass over it. Pure: the same
+/// arguments give the same plan, and nothing is drawn, opened or allocated on a device. A wish the device cannot meet
+/// (full without fragment highp, a tier above its version, a storage that does not render when asked for by name)
+/// throws Error(usage) with the sentence why and what to try.
 [[nodiscard]] FramePlan plan_frame(const Scene& scene, const View& view, const Wishes& wishes, const gl::Caps& caps,
                                    std::span<const EffectCard* const> cards);
 

@@ -38,6 +38,7 @@ std::vector<TierAnswer> ask_tiers(const gl::Caps& caps) {
         try {
             Wishes wishes;
             wishes.tier = answer.tier;
+            wishes.reads_light = true;  // what the device has for it
             const FramePlan plan = plan_frame(scene, view, wishes, caps, all_effects());
             const auto broken = broken_rule(plan, caps);
             answer.runs = !broken;

@@ -29,8 +29,10 @@ struct Size {
 };
 constexpr std::array kSizes = {Size{"640x360", 0.2304}, Size{"1280x720", 0.9216}};
 
-/// Effect, tier, arithmetic, device.
-using Key = std::tuple<std::string, std::string, std::string, std::string>;
+/// Effect, tier, arithmetic, and whether it draws passes or only adds code to others'.
+using Row = std::tuple<std::string, std::string, std::string, bool>;
+/// A row and a device.
+using Key = std::pair<Row, std::string>;
 /// By view, the milliseconds at each size.
 using Samples = std::map<std::string, std::array<double, kSizes.size()>>;
 
@@ -39,7 +41,7 @@ double rounded(double value) { return std::round(value * 1e4) / 1e4; }
 
 /// Effects, tiers and views in the order they were counted.
 struct Gathered {
-    std::vector<std::tuple<std::string, std::string, std::string>> rows;
+    std::vector<Row> rows;
     std::vector<std::string> devices;
     std::map<Key, Samples> samples;
     Json views = Json::array();
@@ -60,11 +62,12 @@ void gather(const Json& view, std::size_t size, Gathered& all) {
         kept[profile + "_ms"] = rounded(device.at("frame_ms").get<double>());
         for (const Json& effect : device.at("effects")) {
             const std::string name = effect.at("effect").get<std::string>();
+            const bool passes = effect.at("passes").get<int>() > 0;
             for (const char* arithmetic : {"half", "full"}) {
-                add_once(all.rows, std::tuple(name, tier, std::string(arithmetic)));
+                const Row row(name, tier, arithmetic, passes);
+                add_once(all.rows, row);
                 const char* key = *arithmetic == 'h' ? "ms" : "other_arithmetic_ms";
-                all.samples[{name, tier, arithmetic, profile}][scene + " " + camera][size] =
-                    effect.at(key).get<double>();
+                all.samples[{row, profile}][scene + " " + camera][size] = effect.at(key).get<double>();
             }
         }
     }
@@ -89,16 +92,17 @@ Json price_of(const Samples& samples) {
             {"most", any ? std::max(rounded(most_ms / large_ms), 1.0) : 1.0}};
 }
 
-Json row_of(const std::tuple<std::string, std::string, std::string>& row, const Gathered& all) {
-    const auto& [effect, tier, arithmetic] = row;
+Json row_of(const Row& row, const Gathered& all) {
+    const auto& [effect, tier, arithmetic, passes] = row;
     Json devices = Json::object();
     std::size_t views = 0;
     for (const std::string& device : all.devices) {
-        const Samples& samples = all.samples.at({effect, tier, arithmetic, device});
+        const Samples& samples = all.samples.at({row, device});
         devices[device] = price_of(samples);
         views = samples.size();
     }
-    return {{"effect", effect}, {"tier", tier}, {"arithmetic", arithmetic}, {"views", views}, {"devices", devices}};
+    return {{"effect", effect}, {"tier", tier},   {"arithmetic", arithmetic},
+            {"passes", passes}, {"views", views}, {"devices", devices}};
 }
 
 std::string lines_of(const Json& rows) {

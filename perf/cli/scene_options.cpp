@@ -235,7 +235,7 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
         .add_option(
             "--storage", options.storage,
             "Format of scene_color: rgba32f, rgba16f, r11g11b10f, rgb10_a2, rgba8, or auto: the highest that the "
-            "tier and the device allow")
+            "tier and the device allow; at console rgba8 where no pass needs light stored")
         ->type_name("FORMAT")
         ->capture_default_str();
     command

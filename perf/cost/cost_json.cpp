@@ -81,6 +81,7 @@ Json device_json(const DeviceCost& device) {
     Json effects = Json::array();
     for (const EffectCost& effect : device.effects) {
         effects.push_back({{"effect", effect.effect},
+                           {"passes", effect.passes},
                            {"ms", effect.ms},
                            {"marginal_ms", effect.marginal_ms},
                            {"other_arithmetic_ms", effect.other_ms},

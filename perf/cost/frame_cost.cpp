@@ -28,6 +28,7 @@ std::vector<EffectCost> effects_of(const FramePlan& plan, const Profile& profile
         for (std::size_t i = 0; i < plan.passes.size(); ++i) {
             const bool own = plan.passes[i].effect == decision.effect;
             double part_ms = own ? passes[i].ms : 0.0;
+            cost.passes += own;
             for (const auto& [inserting, works] : without) {
                 const bool self = inserting == decision.effect;
                 if (self == own) continue;  // its code in its own pass is its own; others' code in others' is theirs

@@ -13,6 +13,7 @@ namespace halfframe::cost {
 /// An effect in a frame: its own passes without what others add to them, and what it adds to others' passes.
 struct EffectCost {
     std::string effect;
+    int passes = 0;  ///< of its own; 0: it only adds code to others'
     double ms = 0.0;
     double marginal_ms = 0.0;  ///< the part of `ms` in others' passes: the surface with it less the surface without
     double other_ms = 0.0;     ///< `ms` in the other arithmetic

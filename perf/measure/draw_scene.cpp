@@ -85,7 +85,9 @@ void append(std::vector<std::string>& notices, const std::vector<std::string>& m
 }  // namespace
 
 DrawResult draw_scene(gl::EntryPoints& gl, const gl::Caps& caps, const Scene& scene, const View& view,
-                      const Wishes& wishes, const DrawRequest& request) {
+                      const Wishes& wished, const DrawRequest& request) {
+    Wishes wishes = wished;
+    wishes.reads_light = wished.reads_light || request.linear;
     DrawResult result;
     FrameReport& report = result.report;
     request.between("planning");

@@ -74,13 +74,12 @@ std::vector<Contestant> contestants(const Places& places, std::vector<std::strin
     };
     // The shares are the aims of this renderer: half of three.js at console, a quarter at low, on full arithmetic.
     add(kConsole, "console", "full", "surface", "console fetches", 0.5);
-    // As the peers draw: display values straight into 8 bits, no pass behind it.
-    add("console+full+rgba8", "console", "full", "surface", "rgba8 fetches", 0.5, "rgba8");
     add("low+full", "low", "full", "surface", "low fetches", 0.25);
     add("console+half", "console", "half", "surface", "console fetches", 0.0);
+    // What a scene pays that needs light stored: a float target, and the pass that maps it.
+    add("console+full+rgba16f", "console", "full", "surface", "console fetches", 0.0, "rgba16f");
     add("console fetches", "console", "full", "fetches", "", 0.0);
     add("console constant", "console", "full", "constant", "", 0.0);
-    add("rgba8 fetches", "console", "full", "fetches", "", 0.0, "rgba8");
     add("low fetches", "low", "full", "fetches", "", 0.0);
     add("low constant", "low", "full", "constant", "", 0.0);
     return list;

@@ -1,5 +1,5 @@
 // The halfframe peer: draws one model through the public library as the orders on standard input say, one JSON object a
-// line, answers on standard output. Usage: halfframe_peer TIER ARITHMETIC surface|constant|fetches [rgba8]
+// line, answers on standard output. Usage: halfframe_peer TIER ARITHMETIC surface|constant|fetches [rgba16f]
 #include <array>
 #include <chrono>
 #include <fstream>
@@ -133,12 +133,12 @@ int run(const std::string& tier_name, const std::string& arithmetic, const std::
     Wishes wishes;
     wishes.tier = tier_from_name(tier_name);
     wishes.arithmetic = arithmetic == "half" ? Arithmetic::half : Arithmetic::full;
-    if (!storage.empty()) wishes.storage = gl::PixelFormat::rgba8;
-    const bool known = wishes.tier && (storage.empty() || storage == "rgba8") &&
+    if (!storage.empty()) wishes.storage = gl::PixelFormat::rgba16f;
+    const bool known = wishes.tier && (storage.empty() || storage == "rgba16f") &&
                        (arithmetic == "half" || arithmetic == "full") &&
                        (work == "surface" || work == "constant" || work == "fetches");
     if (!known) {
-        std::cerr << "usage: halfframe_peer low|console|reference half|full surface|constant|fetches [rgba8]\n";
+        std::cerr << "usage: halfframe_peer low|console|reference half|full surface|constant|fetches [rgba16f]\n";
         return static_cast<int>(Fault::usage);
     }
     // What the peers draw too: no shadow, no bloom, no antialiasing.

@@ -64,7 +64,7 @@ TEST_F(Failure, ATargetThatCannotBeAllocatedIsNamed) {
     const View view = square_view();
     Renderer renderer(played, caps());
     try {
-        renderer.prepare(scene, plan_frame(scene, view, {}, caps(), all_effects()));
+        renderer.prepare(scene, plan_frame(scene, view, {.reads_light = true}, caps(), all_effects()));
         FAIL() << "the failure went unnoticed";
     } catch (const Error& error) {
         EXPECT_EQ(error.exit_code(), 4);

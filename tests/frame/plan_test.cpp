@@ -21,8 +21,17 @@ std::string refusal(const Scene& scene, const Wishes& wishes, const gl::Caps& ca
     return {};
 }
 
-TEST(Plan, DrawsLightThenMapsIt) {
-    const FramePlan frame = plan(square_scene());
+/// The square with a pane before it, which blends.
+Scene blended_scene() {
+    Scene scene = square_scene();
+    scene.materials.push_back({.alpha_mode = AlphaMode::blend});
+    scene.surfaces.push_back(
+        {.name = "pane", .mesh = 0, .material = 1, .world_from_local = glm::mat4(1.0f), .dynamic = false});
+    return scene;
+}
+
+TEST(Plan, DrawsLightThenMapsItWhereLightIsStored) {
+    const FramePlan frame = plan(square_scene(), {.storage = PixelFormat::rgba16f});
     EXPECT_EQ(pass_names(frame), (Names{"surface", "tone_map", "anti_alias"}));
     EXPECT_EQ(frame.storage, PixelFormat::rgba16f);
     EXPECT_EQ(frame.passes[0].start_color, StartAction::clear);
@@ -32,12 +41,48 @@ TEST(Plan, DrawsLightThenMapsIt) {
     EXPECT_FALSE(broken_rule(frame, able_caps()));
 }
 
+TEST(Plan, StoresLightOnlyWhereAPassNeedsIt) {
+    struct Case {
+        const char* why;  ///< in the sentence of tone_map
+        Scene scene;
+        Wishes wishes;
+        PixelFormat storage;
+    };
+    Scene glowing = square_scene();
+    glowing.bloom = Bloom{};
+    Scene sky = square_scene();
+    sky.sky = Sky{.zenith = glm::vec3(0.5f), .horizon = glm::vec3(0.5f), .ground = glm::vec3(0.5f)};
+    const Case cases[] = {
+        {"no pass reads", square_scene(), {}, PixelFormat::rgba8},
+        {"no pass reads", sky, {}, PixelFormat::rgba8},
+        {"no pass reads", blended_scene(), {.effect_switches = {{"transparent", false}}}, PixelFormat::rgba8},
+        {"transparent blends", blended_scene(), {}, PixelFormat::rgba16f},
+        {"bloom reads", glowing, {}, PixelFormat::rgba16f},
+        {"bloom reads", square_scene(), {.effect_switches = {{"bloom", true}}}, PixelFormat::rgba16f},
+        {"read back", square_scene(), {.reads_light = true}, PixelFormat::rgba16f},
+        {"by name", square_scene(), {.storage = PixelFormat::rgb10_a2}, PixelFormat::rgb10_a2},
+        {"tier reference", square_scene(), {.tier = Tier::reference}, PixelFormat::rgba32f},
+        {"tier low", blended_scene(), {.tier = Tier::low}, PixelFormat::rgba8}};
+    for (const Case& one : cases) {
+        const FramePlan frame = plan(one.scene, one.wishes);
+        const EffectDecision& tone_map = *frame.find("tone_map");
+        EXPECT_EQ(frame.storage, one.storage) << one.why;
+        EXPECT_TRUE(tone_map.in) << one.why;
+        EXPECT_NE(tone_map.why.find(one.why), std::string::npos) << tone_map.why;
+        EXPECT_EQ(frame.target_index("scene_color") >= 0, one.storage != PixelFormat::rgba8) << one.why;
+        EXPECT_EQ(tone_map.insertions.empty(), one.storage != PixelFormat::rgba8) << one.why;
+        EXPECT_TRUE(frame.notices.empty()) << one.why << ": " << frame.notices.front();
+        EXPECT_FALSE(broken_rule(frame, able_caps())) << one.why;
+    }
+    gl::Caps caps = able_caps();
+    caps.samples.fill(4);
+    const Wishes samples{.effect_tiers = {{"anti_alias", Tier::reference}}};
+    EXPECT_EQ(plan(square_scene(), samples, caps).storage, PixelFormat::rgba16f) << "samples are averaged as light";
+}
+
 TEST(Plan, PutsTheSkyBetweenOpaqueAndTransparent) {
-    Scene scene = square_scene();
+    Scene scene = blended_scene();
     scene.sky = Sky{};
-    scene.materials.push_back({.alpha_mode = AlphaMode::blend});
-    scene.surfaces.push_back(
-        {.name = "pane", .mesh = 0, .material = 1, .world_from_local = glm::mat4(1.0f), .dynamic = false});
     EXPECT_EQ(pass_names(plan(scene)), (Names{"surface", "sky", "transparent", "tone_map", "anti_alias"}));
     EXPECT_EQ(pass_names(plan(scene, {.tier = Tier::low})), (Names{"surface", "sky", "transparent"}));
 }
@@ -52,7 +97,7 @@ TEST(Plan, LowStoresDisplayValuesInOneTarget) {
 }
 
 TEST(Plan, TakesTheHighestStorageThatRenders) {
-    const Scene scene = square_scene();
+    const Scene scene = blended_scene();
     gl::Caps caps = able_caps();
     EXPECT_EQ(plan(scene, {}, caps).storage, PixelFormat::rgba16f);
     EXPECT_TRUE(plan(scene, {}, caps).notices.empty());
@@ -63,6 +108,8 @@ TEST(Plan, TakesTheHighestStorageThatRenders) {
     EXPECT_EQ(plan(scene, {}, caps).storage, PixelFormat::rgb10_a2);
     caps = without(caps, {PixelFormat::rgb10_a2});
     EXPECT_EQ(plan(scene, {}, caps).storage, PixelFormat::rgba8);
+    EXPECT_EQ(plan(scene, {}, caps).notices.size(), 1u) << "the pane would be blended as light";
+    EXPECT_TRUE(plan(square_scene(), {}, caps).notices.empty()) << "nothing here needs light";
     EXPECT_EQ(plan(scene, {.tier = Tier::reference}, able_caps()).storage, PixelFormat::rgba32f);
 }
 
@@ -137,11 +184,12 @@ TEST(Plan, AStorageAskedForByNameMayExceedTheTiersLimitAndSaysSo) {
 }
 
 TEST(Plan, TheCensusMakesEveryColourTargetFloat) {
-    const FramePlan frame = plan(square_scene(), {.census = true});
+    const FramePlan frame = plan(blended_scene(), {.census = true});
     for (const Target& target : frame.targets) {
         EXPECT_TRUE(gl::is_depth(target.format) || target.format == PixelFormat::rgba32f) << target.name;
     }
     EXPECT_EQ(frame.storage, PixelFormat::rgba16f) << "the shaders stay those of the frame that is examined";
+    EXPECT_EQ(plan(square_scene(), {.census = true}).storage, PixelFormat::rgba8) << "here too";
 }
 
 TEST(Plan, IsTheSameEveryTime) {

@@ -6,7 +6,8 @@
 namespace halfframe::tests {
 namespace {
 
-FramePlan good() { return plan(square_scene()); }
+/// With a pass that reads what another has drawn.
+FramePlan good() { return plan(square_scene(), {.reads_light = true}); }
 
 void expect_broken(const FramePlan& frame, const std::string& words, const gl::Caps& caps = able_caps()) {
     const auto broken = broken_rule(frame, caps);

@@ -104,6 +104,7 @@ void add_passes(const PlanContext& context, FramePlan& plan) {
         pass.phase = phase;
         pass.reads = {from};
         pass.color = to;
+        pass.blends = phase == Phase::display;
         pass.start_color = phase == Phase::display ? StartAction::keep : StartAction::discard;
         plan.passes.push_back(pass);
     };

@@ -100,6 +100,7 @@ void add_blobs(FramePlan& plan) {
     pass.order = PassOrder::ground;
     pass.color = plan.add_scene_color();
     pass.depth = plan.add_scene_depth();
+    pass.blends = true;
     plan.passes.push_back(pass);
 }
 

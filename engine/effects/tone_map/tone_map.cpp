@@ -2,6 +2,8 @@
 // display values.
 #include "engine/effects/tone_map/tone_map.h"
 
+#include <fmt/format.h>
+
 #include "engine/frame/frame_plan.h"
 #include "engine/frame/renderer.h"
 
@@ -17,11 +19,13 @@ constexpr std::array kInsertions = {
 Demand called_for(const PlanContext& context) {
     const bool draws = !context.scene.surfaces.empty() || context.scene.sky.has_value() || !context.plan.passes.empty();
     if (!draws) return {false, "nothing is lit: the scene has no surfaces and no sky"};
+    const std::string& why = context.plan.why_storage;
+    const std::string because = why.empty() ? "" : ": " + why;
     if (!holds_display_values(context.storage))
-        return {true, std::string("scene_color holds linear light (") + name(context.storage) + ")"};
+        return {true, fmt::format("a pass maps the light of scene_color ({}){}", name(context.storage), because)};
     if (context.scene.surfaces.empty())
-        return {false, "the sky is stored as display values, so there is nothing to map"};
-    return {true, "the surface shader maps its own light: scene_color holds display values (RGBA8)"};
+        return {false, "the sky is stored as display values, so there is nothing to map" + because};
+    return {true, "no pass: the surface shader maps its own light into 8 bits" + because};
 }
 
 void add_passes(const PlanContext& context, FramePlan& plan) {
@@ -86,7 +90,8 @@ const EffectCard kToneMap{
     .tiers = {TierCard{
                   kShaders, "display",
                   "no pass: surfaces map their own light, so translucents blend display values (a little too dark)"},
-              TierCard{kShaders, "display", "one pass over the picture; whites from a light of 8"},
+              TierCard{kShaders, "display",
+                       "one pass over the picture where something reads light, else none; whites from a light of 8"},
               TierCard{kShaders, "display", "as console, in highp from float targets"}},
     .indispensable = "without it, light would be shown as if it were a display's values",
     .called_for = called_for,

@@ -26,6 +26,7 @@ void add_passes(const PlanContext&, FramePlan& plan) {
     pass.order = PassOrder::transparent;
     pass.color = plan.add_scene_color();
     pass.depth = plan.add_scene_depth();
+    pass.blends = true;
     plan.passes.push_back(pass);
 }
 

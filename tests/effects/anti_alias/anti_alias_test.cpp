@@ -211,12 +211,20 @@ TEST(AntiAliasPlan, EachTierHasItsOwnWay) {
     EXPECT_FALSE(plan(scene, {.tier = Tier::low}, caps).find("anti_alias")->in);
     EXPECT_FALSE(plan({.name = "nothing"}, {}, caps).find("anti_alias")->in);
 
-    const FramePlan console = plan(scene, {}, caps);
+    const FramePlan console = plan(scene, {.reads_light = true}, caps);
     EXPECT_EQ(pass_names(console), (std::vector<std::string>{"surface", "tone_map", "anti_alias"}));
     EXPECT_EQ(console.targets[static_cast<std::size_t>(*console.passes[1].color)].name, "unfiltered");
     EXPECT_EQ(console.passes[2].color, console.display);
     EXPECT_DOUBLE_EQ(console.bytes_per_pixel(), 20.0) << "4 more than without";
     EXPECT_EQ(broken_rule(console, caps), std::nullopt);
+
+    // Surfaces that map their own light draw straight into what the filter reads.
+    const FramePlan direct = plan(scene, {}, caps);
+    EXPECT_EQ(pass_names(direct), (std::vector<std::string>{"surface", "anti_alias"}));
+    EXPECT_EQ(direct.targets[static_cast<std::size_t>(*direct.passes[0].color)].name, "unfiltered");
+    EXPECT_EQ(direct.passes[1].color, direct.display);
+    EXPECT_DOUBLE_EQ(direct.bytes_per_pixel(), 12.0) << "RGBA8 twice, and depth";
+    EXPECT_EQ(broken_rule(direct, caps), std::nullopt);
 
     const FramePlan reference = plan(scene, {.tier = Tier::reference}, caps);
     EXPECT_EQ(pass_names(reference), (std::vector<std::string>{"surface", "anti_alias", "tone_map"}));
@@ -232,7 +240,7 @@ TEST(AntiAliasPlan, EachTierHasItsOwnWay) {
 
     const FramePlan off = plan(scene, {.effect_switches = {{"anti_alias", false}}}, caps);
     EXPECT_EQ(off.target_index("unfiltered"), -1);
-    EXPECT_EQ(pass_names(off), (std::vector<std::string>{"surface", "tone_map"}));
+    EXPECT_EQ(pass_names(off), std::vector<std::string>{"surface"});
 }
 
 TEST(AntiAliasPlan, SamplesThatTheDeviceLacksOrThatNobodyResolvesBreakARule) {

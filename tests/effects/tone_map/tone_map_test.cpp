@@ -5,7 +5,11 @@
 
 #include <cmath>
 
+#include <fmt/format.h>
+
+#include "content/content.h"
 #include "tests/effects/lit_square.h"
+#include "tests/harness/image_compare.h"
 
 namespace halfframe::tests {
 namespace {
@@ -57,11 +61,46 @@ TEST_F(ToneMap, GivesTheTalksCodes) {
 }
 
 TEST_F(ToneMap, AnInfiniteOrNegativeLightIsWhiteOrBlack) {
-    for (const Tier tier : {Tier::low, Tier::console}) {
-        EXPECT_EQ(code(std::numeric_limits<float>::infinity(), {.tier = tier}), 255) << name(tier);
-        EXPECT_EQ(code(-1.0f, {.tier = tier}), 0) << name(tier);
-        EXPECT_EQ(code(std::numeric_limits<float>::quiet_NaN(), {.tier = tier}), 0) << name(tier);
+    const Wishes all[] = {
+        {.tier = Tier::low}, {.tier = Tier::console}, {.tier = Tier::console, .storage = gl::PixelFormat::rgba16f}};
+    for (Wishes wishes : all) {
+        for (const Arithmetic arithmetic : {Arithmetic::half, Arithmetic::full}) {
+            wishes.arithmetic = arithmetic;
+            const std::string what = fmt::format("{} {}", name(*wishes.tier), name(arithmetic));
+            EXPECT_EQ(code(std::numeric_limits<float>::infinity(), wishes), 255) << what;
+            EXPECT_EQ(code(-1.0f, wishes), 0) << what;
+            EXPECT_EQ(code(std::numeric_limits<float>::quiet_NaN(), wishes), 0) << what;
+        }
     }
+}
+
+// Where nothing else needs light, each shader maps its own: what the plan chooses is the picture of a float target.
+TEST_F(ToneMap, ShowsTheSameWithAndWithoutAPassOfItsOwn) {
+    int compared = 0;
+    for (const content::BuiltInScene& built_in : content::built_in_scenes()) {
+        const Scene scene = built_in.make();
+        for (const Arithmetic arithmetic : {Arithmetic::half, Arithmetic::full}) {
+            Wishes wishes{.tier = Tier::console, .arithmetic = arithmetic};
+            // The edge filter asks whether neighbours differ: a code there may mix a pixel or not.
+            wishes.effect_switches = {{"anti_alias", false}};
+            for (const Camera& camera : scene.cameras) {
+                const View view = view_of(camera, 320, 180);
+                wishes.storage.reset();
+                if (!holds_display_values(plan_frame(scene, view, wishes, caps(), all_effects()).storage)) continue;
+                const Picture chosen =
+                    render(scene, view, wishes, all_effects(), harness::FlatPicture::is_expected).picture;
+                wishes.storage = gl::PixelFormat::rgba32f;
+                const Picture light =
+                    render(scene, view, wishes, all_effects(), harness::FlatPicture::is_expected).picture;
+                // One code: rounding to 8 bits, and in half three roundings of the curve, 0.4 of a code.
+                const harness::ImageTolerance one_code{.max_channel_error = 1, .max_bad_fraction = 1.0};
+                EXPECT_TRUE(harness::similar_picture(chosen, light, one_code,
+                                                     fmt::format("own_light_{}_{}", built_in.name, name(arithmetic))));
+                ++compared;
+            }
+        }
+    }
+    EXPECT_GT(compared, 10) << "pictures of scenes that store no light";
 }
 
 TEST_F(ToneMap, IsAPassOnlyWhereLightIsStored) {
@@ -70,7 +109,9 @@ TEST_F(ToneMap, IsAPassOnlyWhereLightIsStored) {
         wishes.effect_switches = {{"anti_alias", false}};  // it may come after
         return plan(scene, wishes).passes.back().name;
     };
-    EXPECT_EQ(last_pass({.tier = Tier::console}), "tone_map");
+    EXPECT_EQ(last_pass({.tier = Tier::console, .storage = gl::PixelFormat::rgba16f}), "tone_map");
+    EXPECT_EQ(last_pass({.tier = Tier::console, .reads_light = true}), "tone_map");
+    EXPECT_EQ(last_pass({.tier = Tier::console}), "surface");
     EXPECT_EQ(last_pass({.tier = Tier::low}), "surface");
     EXPECT_EQ(last_pass({.tier = Tier::console, .storage = gl::PixelFormat::rgba8}), "surface");
     EXPECT_FALSE(plan({.name = "nothing"}).find("tone_map")->in);

@@ -25,7 +25,7 @@ vec3 water_specular(vec3 specular, float share) { return specular + (0.02 - spec
 //@promise in 0..1; rising share; where share == 0.0: result == smoothness
 float water_smoothness(float smoothness, float share) { return smoothness + (1.0 - smoothness) * share; }
 
-// The ground's normal under the water's. Water stands where the ground is level, so they never oppose each other.
+// The ground's normal under the water's. Water stands where the ground is level: they never oppose each other. FULL: as normals
 //@domain ground, water: unit; share: 0..1; where dot(ground, water) > -0.5
 //@promise in -1.001..1.001
 FULL vec3 over_water(FULL vec3 ground, FULL vec3 water, float share) {

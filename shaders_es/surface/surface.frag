@@ -19,7 +19,7 @@
 #include "surface/surface_material.glsl"
 #include "tone_map/tone_map.glsl"
 
-FRAGMENT_IN FULL vec3 vertex_to_eye;
+FRAGMENT_IN FULL vec3 vertex_to_eye;  // FULL: metres, see surface.vert
 #ifndef UNLIT
 FRAGMENT_IN HALF vec3 vertex_normal;
 #endif
@@ -162,7 +162,7 @@ void main() {
 #ifdef DOUBLE_SIDED
     n = gl_FrontFacing ? n : -n;
 #endif
-    FULL vec3 v = normalize(vertex_to_eye * parallel_eye.w + parallel_eye.xyz);
+    FULL vec3 v = normalize(vertex_to_eye * parallel_eye.w + parallel_eye.xyz);  // FULL: h is made of it
 
 #ifdef WATER
     vec3 water = water_place();
@@ -206,7 +206,7 @@ void main() {
 #ifdef COUNTED_LIGHTS
         if (float(i) >= light_count.x) break;
 #endif
-        FULL vec3 to_light = light_position[i].xyz + vertex_to_eye;
+        FULL vec3 to_light = light_position[i].xyz + vertex_to_eye;  // FULL: metres; then their squares, and l for h
         FULL float distance_squared = dot(to_light, to_light);
         FULL vec3 l = to_light * inversesqrt(max(distance_squared, 1e-8));
 #ifdef AREA_LIGHTS

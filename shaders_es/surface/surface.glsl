@@ -2,7 +2,7 @@
 // Motivated Shading Models for Game Development", SIGGRAPH 2010, as used by S. Lagarde and L. Harduin, GDC Europe 2013.
 // Plain functions of values: they sample nothing, so tests can call each one alone.
 
-// Fresnel reflectance (Schlick 1994). specular 0..1, l_dot_h 0..1.
+// Fresnel reflectance (Schlick 1994). specular 0..1, l_dot_h 0..1. FULL: 1 - l.h cancels near 1.
 //@domain specular, l_dot_h: 0..1
 //@exempt half_flushed, es_minimum: within exp2(-14.0); the fifth power, or what it is multiplied with, is 0 below 2^-14
 //@promise in 0..1; falling l_dot_h; where l_dot_h == 1.0: result == specular; where l_dot_h == 0.0: within(result, vec3(1.0), slack)
@@ -106,7 +106,7 @@ float area_power(float power, float ratio) {
     return power / (smear + 1.0 / (1.0 + 0.5 * smear));
 }
 
-// Light leaving towards v for one direction of light. `radiance` is the light's color (irradiance / pi) at the point.
+// Light leaving towards v for one direction of light. `radiance` is its color (irradiance / pi) there. FULL: see blinn_root.
 //@domain albedo, specular: 0..1; power: 1.75..2048; n, v, l: unit; radiance: 0..400; where (power + 2.0) * max(max(radiance.r, radiance.g), radiance.b) <= 512500.0
 //@exempt half_flushed, es_minimum: within exp2(-14.0) * (1.0 + max(max(radiance.r, radiance.g), radiance.b) * (3.0 + (power + 2.0) * 0.125)); the result and three sums and products are 0 below 2^-14, and Fresnel is before it is multiplied by the peak of the lobe
 //@promise in 0..65504; where dot(n, l) <= 0.0: result == vec3(0.0)

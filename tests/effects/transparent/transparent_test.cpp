@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/effects/tone_map/tone_map_reference.h"
+#include "engine/effects/transparent/transparent_reference.h"
 #include "tests/effects/lit_square.h"
 
 namespace halfframe::tests {
@@ -37,12 +39,11 @@ Scene layered(const glm::vec3& back, const std::vector<Layer>& layers) {
     return scene;
 }
 
-/// The over operator in double, far to near.
-glm::dvec3 over(glm::dvec3 behind, std::vector<Layer> layers) {
-    std::ranges::sort(layers, {}, &Layer::z_m);  // the eye is at z = 2
+glm::dvec3 over(const glm::dvec3& behind, const std::vector<Layer>& layers) {
+    std::vector<reference::BlendedLayer> seen;
     for (const Layer& layer : layers)
-        behind = glm::dvec3(layer.light) * double{layer.alpha} + behind * (1.0 - double{layer.alpha});
-    return behind;
+        seen.push_back({.light = layer.light, .alpha = layer.alpha, .distance_m = 2.0 - layer.z_m});  // the eye: z = 2
+    return reference::seen_through(seen, behind);
 }
 
 TEST_F(Transparent, BlendsFarToNearWhateverTheOrderOfTheScene) {
@@ -64,6 +65,20 @@ TEST_F(Transparent, BlendsFarToNearWhateverTheOrderOfTheScene) {
             }
         }
     }
+    // At low, display values are blended: the same operator over what each layer shows alone.
+    const auto shown = [](const glm::vec3& light) {
+        glm::vec3 value;
+        for (int i = 0; i < 3; ++i) value[i] = static_cast<float>(reference::tone_curve(light[i]));
+        return value;
+    };
+    std::vector<Layer> display = layers;
+    for (Layer& layer : display) layer.light = shown(layer.light);
+    const glm::dvec3 expected_at_low = over(shown(back), display);
+    const Picture low = render(layered(back, layers), square_view(8, 8), {.tier = Tier::low}, all_effects(),
+                               harness::FlatPicture::is_expected)
+                            .picture;
+    for (std::size_t i = 0; i < 3; ++i)  // 2 codes: each of three layers is rounded to 8 bits
+        EXPECT_NEAR(low.rgba[(4 * 8 + 4) * 4 + i], 255.0 * expected_at_low[static_cast<int>(i)], 2.0) << i;
     std::vector<Layer> wrong = layers;
     for (Layer& layer : wrong) layer.z_m = -layer.z_m;
     EXPECT_GT(glm::length(over(back, wrong) - expected), 0.1) << "the check cannot tell near to far from far to near";

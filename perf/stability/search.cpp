@@ -124,15 +124,21 @@ void judge_promises(const Trial& trial, Model model, std::vector<double>& badnes
     }
 }
 
-/// Sweeps one behind the other, each from where `begins` says: no result falls (or rises) by more than 2 of its steps.
+/// Sweeps one behind the other, each from where `begins` says: no result falls (or rises) by more than 2 of its steps
+/// below (or above) the highest (lowest) before it, so that many small steps back are seen too.
 void judge_sweep(const Trial& trial, const Promise& promise, const std::vector<bool>& begins,
                  std::vector<double>& badness) {
     const double sign = promise.kind == Promise::Kind::rising ? 1.0 : -1.0;
     const Format format = format_of(trial.tally.model);
-    for (std::size_t lane = 1; lane < badness.size(); ++lane) {
-        if (begins[lane]) continue;
+    std::vector<double> furthest(trial.got.size());
+    for (std::size_t lane = 0; lane < badness.size(); ++lane) {
         for (std::size_t s = 0; s < trial.got.size(); ++s) {
-            const double before = trial.got[s][lane - 1], here = trial.got[s][lane];
+            const double here = trial.got[s][lane];
+            if (begins[lane] || sign * here > sign * furthest[s]) {
+                furthest[s] = here;
+                continue;
+            }
+            const double before = furthest[s];
             const double slack = kResultSteps * step_at(std::max(std::fabs(before), std::fabs(here)), format,
                                                         trial.subject.function().returns_full);
             if (sign * (here - before) >= -slack) continue;

@@ -139,7 +139,9 @@ std::string row_of(const FunctionStability& function, std::size_t index) {
 }
 
 std::string table_of(const std::vector<FunctionStability>& functions) {
-    std::string table = "<div class=\"wide\" tabindex=\"0\"><table><thead><tr><th>function</th>";
+    std::string table =
+        "<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"all "
+        "functions\"><table><thead><tr><th>function</th>";
     for (const char* arithmetic : kArithmetics)
         table += fmt::format("<th class=\"number\" scope=\"col\">{}</th>", arithmetic);
     table += "<th class=\"number\" scope=\"col\">inputs</th></tr></thead><tbody>\n";
@@ -156,7 +158,8 @@ std::string scalars_text(const std::vector<double>& scalars) {
 std::string steps_table(const FunctionStability& function) {
     if (function.steps.empty()) return "";
     std::string table =
-        "<div class=\"wide\" tabindex=\"0\"><table><thead><tr><th>step</th><th>in double</th><th>in this "
+        "<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"steps\"><table><thead><tr><th>step</th><th>in "
+        "double</th><th>in this "
         "arithmetic</th>"
         "</tr></thead><tbody>\n";
     for (const Step& step : function.steps)
@@ -186,10 +189,9 @@ std::string promise_line(const Declaration& function) {
 
 std::string section(const FunctionStability& function, std::size_t index, const std::string& command, bool open) {
     const Tally& worst = function.worst();
-    std::string html =
-        fmt::format("<details{}><summary><b>{}</b> <span class=\"soft\">{}</span></summary>\n",
-                    open && !function.violations.empty() ? " open" : "", html_escaped(function.title),
-                    html_escaped(function.function.place()));
+    std::string html = fmt::format("<details{}><summary><b>{}</b> <span class=\"soft\">{}</span></summary>\n",
+                                   open && !function.violations.empty() ? " open" : "", html_escaped(function.title),
+                                   html_escaped(function.function.place()));
     // A browser opens what holds the target of a link, and not the target itself.
     html += fmt::format("<p id=\"f{}\" tabindex=\"-1\">{}</p>\n", index, html_escaped(promise_line(function.function)));
     for (const Exemption& one : function.function.exemptions)

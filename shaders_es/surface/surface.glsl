@@ -81,6 +81,7 @@ float blinn_lobe(FULL vec3 n, FULL vec3 h, float power) {
 // unit of length, in half too.
 //@domain distance_squared: 0..1e8; inverse_range_squared: 1e-6..1e4
 //@promise in 0..60000; falling distance_squared; where distance_squared * inverse_range_squared >= 1.0: result == 0.0
+//@promise where result < 6e4: within(distance_falloff(4.0 * distance_squared, 0.25 * inverse_range_squared), 0.25 * result, slack)
 float distance_falloff(FULL float distance_squared, FULL float inverse_range_squared) {
     FULL float ratio = distance_squared * inverse_range_squared;
     FULL float window = clamp(1.0 - ratio * ratio, 0.0, 1.0);

@@ -275,8 +275,9 @@ TEST(Frames, ThePageStandsAlone) {
     ASSERT_EQ(result.code, 0) << result.err;
     std::ifstream stream(page);
     const std::string html{std::istreambuf_iterator<char>(stream), {}};
-    for (const char* part : {"no mediump hardware was measured", "Limits of the frame", "frame on ps3", "bound by",
-                             "Effects, in and out", "not called for"})
+    for (const char* part :
+         {"no mediump hardware was measured", "Limits of the frame", "frame on ps3", "bound by", "Effects, in and out",
+          "not called for", "colspan=\"3\" class=\"group\">measured here", "ps3, mark: allowed"})
         expect_in(html, part);
     EXPECT_EQ(html.find("http://"), std::string::npos);
     EXPECT_EQ(html.find("src=\"data:image/png"), std::string::npos);  // nothing was drawn

@@ -101,6 +101,53 @@ TEST(Search, PromisesAreHeld) {
     }
 }
 
+TEST(Search, EachKindOfPropertyKnowsARightFormulaFromAWrongOne) {
+    struct Property {
+        const char* kind;
+        const char* declared;
+        const char* right;
+        const char* wrong;
+    };
+    const Property properties[] = {
+        {"both ends of Fresnel",
+         "//@domain s, c: 0..1\n//@promise where c == 1.0: result == s; where c == 0.0: within(result, 1.0, slack)\n"
+         "float f(float s, float c) ",
+         "{ FULL float x = 1.0 - c; return s + (1.0 - s) * (x * x * x * x * x); }",
+         "{ FULL float x = 1.0 - c; return s + x * x * x * x * x; }"},
+        {"a lobe at n = h",
+         "//@domain n, h: unit; power: 2..2048\n//@promise where n == h: result == 1.0\n"
+         "float f(vec3 n, vec3 h, float power) ",
+         "{ FULL vec3 d = n - h; return exp2(-0.72 * power * dot(d, d)); }",
+         "{ return pow(max(dot(n, h), 0.0), power); }"},
+        {"no wetness is the identity",
+         "//@domain albedo, wetness: 0..1\n//@promise where wetness == 0.0: result == albedo\n"
+         "float f(float albedo, float wetness) ",
+         "{ return albedo * (1.0 - 0.5 * wetness); }", "{ return albedo * (0.998 - 0.5 * wetness); }"},
+        {"an inverse", "//@domain x: 0..1\n//@promise within(back(result), x, 0.01)\nfloat f(float x) ",
+         "{ return x / (x + 1.0); }\n//@not_run a helper\nfloat back(float y) { return y / (1.0 - y); }",
+         "{ return x / (x + 1.0); }\n//@not_run a helper\nfloat back(float y) { return y / (1.05 - y); }"},
+        {"monotone", "//@domain x: 0..1\n//@promise rising x\nfloat f(float x) ", "{ return x * (2.0 - x); }",
+         "{ return x * (1.9 - x); }"},
+        {"axes permuted", "//@domain v: -1..1\n//@promise within(f(v.yzx), result, slack)\nfloat f(vec3 v) ",
+         "{ return max(max(abs(v.x), abs(v.y)), abs(v.z)); }", "{ return max(max(abs(v.x), abs(v.y)), v.z); }"},
+        {"another unit of length",
+         "//@domain d: 0..64; r: 0.25..4\n//@promise within(f(4.0 * d, 0.25 * r), 0.25 * result, slack)\n"
+         "float f(FULL float d, FULL float r) ",
+         "{ return r / (1.0 + d * r); }", "{ return r / (1.0 + d); }"},
+    };
+    int found = 0;
+    for (const Property& one : properties) {
+        const auto broken = [&](const char* body) {
+            return says(Own(one.declared + std::string(body) + "\n").search(), "does not hold");
+        };
+        EXPECT_FALSE(broken(one.right)) << one.kind;
+        const bool is_found = broken(one.wrong);
+        EXPECT_TRUE(is_found) << one.kind;
+        found += is_found ? 1 : 0;
+    }
+    std::cout << "wrong formulas found " << found << " / " << std::size(properties) << "\n";
+}
+
 TEST(Search, OnlyWhatLetsNanInMustSurviveIt) {
     const FunctionStability found =
         Own("//@domain x: any\n//@promise finite\nfloat f(float x) { return min(x, 8.0); }\n").search();

@@ -112,6 +112,8 @@ Storage chosen_storage(const Wishes& wishes, Tier tier, const gl::Caps& caps) {
 /// reads it, and whatever draws may map its own.
 std::optional<std::string> need_of_light(const FramePlan& plan, const Wishes& wishes) {
     if (wishes.reads_light) return "it is read back as light";
+    // Where shaders map their own light, what guards the curve makes 0 of a NaN before anything stores it.
+    if (wishes.census) return "the census counts what light holds";
     const int light = plan.target_index("scene_color");
     for (const Pass& pass : plan.passes) {
         if (pass.resolves && pass.color == light) return fmt::format("{} averages samples of light", pass.effect);

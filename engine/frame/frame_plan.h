@@ -24,10 +24,11 @@ struct Wishes {
     std::optional<Arithmetic> arithmetic;                       ///< empty: automatic
     std::optional<gl::PixelFormat> storage;                     ///< empty: light only where something reads it
     bool reads_light = false;                                   ///< scene_color is read back as linear light (.exr)
-    bool census = false;                                        ///< every colour target RGBA32F, to count NaN and inf
-    VertexPrecision vertices = VertexPrecision::half;           ///< bits of positions, directions, UVs and colours
-    std::optional<TextureCompression> textures;                 ///< empty: what the device profile says, else none
-    bool fixed_view = false;  ///< only the view that the plan is made for is drawn: what it does not see may be left out
+    bool census = false;  ///< every colour target RGBA32F, to count NaN and inf, in light where the tier can store it
+    VertexPrecision vertices = VertexPrecision::half;  ///< bits of positions, directions, UVs and colours
+    std::optional<TextureCompression> textures;        ///< empty: what the device profile says, else none
+    bool fixed_view =
+        false;  ///< only the view that the plan is made for is drawn: what it does not see may be left out
 };
 
 /// A texture that passes write and read.

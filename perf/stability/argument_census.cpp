@@ -219,9 +219,8 @@ void take_stored(SeenArgument& argument, const FloatPicture& picture, const std:
 
 FloatPicture drawn(Renderer& renderer, const gl::Caps& caps, std::span<const EffectCard* const> cards,
                    const Scene& scene, int width, int height) {
-    Wishes wishes{.tier = Tier::console, .arithmetic = Arithmetic::full, .storage = gl::PixelFormat::rgba32f};
+    Wishes wishes{.tier = Tier::console, .arithmetic = Arithmetic::full};
     wishes.census = true;
-    wishes.reads_light = true;
     for (const char* effect : {"bloom", "anti_alias"}) wishes.effect_switches.emplace_back(effect, false);
     View view = view_of(scene.cameras.at(0), width, height);
     view.exposure = scene.cameras.at(0).exposure;

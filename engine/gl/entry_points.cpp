@@ -250,7 +250,7 @@ std::string EntryPoints::trace_json() const {
 
 void EntryPoints::stop_trace() { trace_.reset(); }
 
-void EntryPoints::before(int call) {
+inline void EntryPoints::before(int call) {
     if (!allowed_[static_cast<std::size_t>(call)]) [[unlikely]]
         refuse(call, needed(static_cast<Call>(call)));
     ++ledger.pass(pass_).count[static_cast<std::size_t>(call)];

@@ -26,6 +26,16 @@ void set(gl::EntryPoints& gl, int location, const glm::vec4& value) {
 
 constexpr glm::vec4 kNotParallel{0.0f, 0.0f, 0.0f, 1.0f};
 
+/// How many draws ahead memory is asked for: one draw hides about one access to main memory, four are on the safe side.
+constexpr std::size_t kAhead = 4;
+
+/// Asks for memory before it is read. Says nothing where the compiler has no word for it.
+void will_read([[maybe_unused]] const void* at, [[maybe_unused]] std::size_t bytes) {
+#if defined(__GNUC__)
+    for (std::size_t i = 0; i < bytes; i += 64) __builtin_prefetch(static_cast<const char*>(at) + i);
+#endif
+}
+
 /// Of an orthographic view: the same for every place.
 glm::vec3 direction_to_eye(const View& view) {
     return {view.view_from_world[0].z, view.view_from_world[1].z, view.view_from_world[2].z};
@@ -87,8 +97,7 @@ std::array<float, 4> order_of(const Scene& scene, int light) {
 /// How the shader reads one of a material's textures.
 TextureUse use_of(const Material& material, const SurfaceTexture& texture, bool decoded) {
     if (texture.define == "BASE_COLOR_MAP") return base_color_use(material, decoded);
-    if (texture.define == "NORMAL_MAP")
-        return {.kind = texture.packed ? TexelKind::packed_surface : TexelKind::normal};
+    if (texture.define == "NORMAL_MAP") return {.kind = texture.packed ? TexelKind::packed_surface : TexelKind::normal};
     return {.decoded = texture.srgb && decoded, .kind = texture.srgb ? TexelKind::color : TexelKind::data};
 }
 
@@ -198,8 +207,8 @@ void SurfaceWork::add_draw(Renderer& renderer, int index) {
     Draw draw{.surface = index,
               .mesh = surface.mesh,
               .material = surface.material,
-              .double_sided = material.double_sided,
-              .textures = {}};
+              .look = static_cast<int>(looks_.size()),
+              .double_sided = material.double_sided};
     int left_out = 0;
     std::vector<int> lights;
     lights.reserve(SURFACE_LIGHT_LIMIT + 1);
@@ -244,16 +253,16 @@ void SurfaceWork::add_draw(Renderer& renderer, int index) {
     } else {
         draw.light_set = light_set_of(std::move(lights));
     }
-    draw.uv_mapping = rows_of(textures.first);
-    draw.uv_b_mapping = rows_of(textures.second);
+    Look look{.uv_mapping = rows_of(textures.first), .uv_b_mapping = rows_of(textures.second), .textures = {}};
     const bool decoded = !low && renderer.caps().srgb_textures;
     for (const SurfaceTexture& texture : textures.used) {
         const TextureUse use = use_of(material, texture, decoded);
-        draw.textures.push_back(
-            {texture.unit, texture.packed ? renderer.packed_texture(texture.texture, texture.packed, use)
-                                          : renderer.texture(texture.texture, use)});
+        look.textures.push_back({texture.unit, texture.packed
+                                                   ? renderer.packed_texture(texture.texture, texture.packed, use)
+                                                   : renderer.texture(texture.texture, use)});
     }
-    draws_.push_back(std::move(draw));
+    looks_.push_back(std::move(look));
+    draws_.push_back(draw);
 }
 
 SurfaceWork::SurfaceWork(Renderer& renderer, const EffectCard& card, SurfacePart part) : card_(card), part_(part) {
@@ -278,6 +287,7 @@ SurfaceWork::SurfaceWork(Renderer& renderer, const EffectCard& card, SurfacePart
     depth_is_there_ = std::ranges::any_of(renderer.plan().passes, [](const Pass& pass) {
         return pass.effect != "surface" && pass.writes_depth && pass.order == PassOrder::depth;
     });
+    places_.resize(draws_.size());
     if (part == SurfacePart::opaque) rank_states();
     order_.resize(draws_.size());
     sorting_.resize(draws_.size());
@@ -289,10 +299,17 @@ void SurfaceWork::rank_states() {
     const auto before = [&](const Draw& a, const Draw& b) {
         return std::tuple(a.variant, a.material, mesh(a)) < std::tuple(b.variant, b.material, mesh(b));
     };
-    // The scene's order decides the rest, so that every run is the same.
-    std::ranges::stable_sort(draws_, before);
+    // The scene's order decides the rest, so that every run is the same. A list is sorted in the place of the draws:
+    // std::stable_sort's buffer forgets alignments above 16.
+    std::vector<const Draw*> order;
+    for (const Draw& draw : draws_) order.push_back(&draw);
+    std::ranges::stable_sort(order, [&](const Draw* a, const Draw* b) { return before(*a, *b); });
+    std::vector<Draw> sorted;
+    sorted.reserve(draws_.size());
+    for (const Draw* draw : order) sorted.push_back(*draw);
+    draws_ = std::move(sorted);
     for (std::size_t i = 1; i < draws_.size(); ++i)
-        draws_[i].state = draws_[i - 1].state + (before(draws_[i - 1], draws_[i]) ? 1 : 0);
+        places_[i].state = places_[i - 1].state + (before(draws_[i - 1], draws_[i]) ? 1 : 0);
 }
 
 void SurfaceWork::set_variant(Renderer& renderer, const View& view, Variant& variant) {
@@ -331,9 +348,10 @@ void SurfaceWork::set_material(Renderer& renderer, const View& view, const Varia
     set(gl, variant.emissive, glm::vec4(emissive, material.alpha_cutoff));
     set(gl, variant.factors, factors_of(material, variant.maps_roughness));
     set(gl, variant.specular_factors, specular_factors_of(material));
-    if (variant.uv_mapping >= 0) gl.Uniform4fv(variant.uv_mapping, 2, &draw.uv_mapping[0].x);
-    if (variant.uv_b_mapping >= 0) gl.Uniform4fv(variant.uv_b_mapping, 2, &draw.uv_b_mapping[0].x);
-    for (const TextureBinding& binding : draw.textures) renderer.bind_texture(binding.unit, binding.texture);
+    const Look& look = looks_[static_cast<std::size_t>(draw.look)];
+    if (variant.uv_mapping >= 0) gl.Uniform4fv(variant.uv_mapping, 2, &look.uv_mapping[0].x);
+    if (variant.uv_b_mapping >= 0) gl.Uniform4fv(variant.uv_b_mapping, 2, &look.uv_b_mapping[0].x);
+    for (const TextureBinding& binding : look.textures) renderer.bind_texture(binding.unit, binding.texture);
     renderer.set_cull(!draw.double_sided);
     if (variant.has_insertions) renderer.feed_material(*variant.program, draw.material);
 }
@@ -351,7 +369,7 @@ void SurfaceWork::set_matrices(Renderer& renderer, const View& view, Variant& va
     };
     set_matrix(variant.clip_from_local, clip);
     if (variant.eye_from_local >= 0) set_matrix(variant.eye_from_local, glm::mat4(eye));
-    set_matrix(variant.normal_from_local, draw.normal_from_local);
+    if (variant.normal_from_local >= 0) set_matrix(variant.normal_from_local, glm::mat4(draw.normal_from_local));
     tell(variant.uv_range, variant.told_uv_range, mesh.storage.uv_range);
     tell(variant.uv1_range, variant.told_uv1_range, mesh.storage.uv1_range);
     tell(variant.direction_scale, variant.told_direction_scale, mesh.direction_scale);
@@ -448,7 +466,8 @@ void SurfaceWork::draw_one(Renderer& renderer, const View& view, Draw& draw) {
     const float scale = scales ? fragment_length_scale(renderer, view, draw) : 1.0f;
     set_matrices(renderer, view, variant, draw, mesh, eye, clip, scale);
     set_lights(renderer, view, variant, draw, scale);
-    renderer.draw_surface(draw.surface, variant.skin);
+    if (draw.changes_shape) renderer.draw_surface(draw.surface, variant.skin);
+    else renderer.draw_mesh(mesh);
 }
 
 // The set is the draw's own: another choice is told to the program even where it was told this set before.
@@ -461,22 +480,37 @@ void SurfaceWork::choose_lights(const Renderer& renderer, const View& view, Vari
     variant.told_light_set = -1;
 }
 
-void SurfaceWork::place(const Renderer& renderer, Draw& draw) {
+void SurfaceWork::place_all(const Renderer& renderer) {
+    const std::vector<Surface>& surfaces = renderer.scene().surfaces;
+    const std::size_t last = draws_.size() - 1;
+    for (std::size_t i = 0; i < draws_.size(); ++i) {
+        const auto soon = static_cast<std::size_t>(draws_[std::min(i + kAhead, last)].surface);
+        will_read(&surfaces[soon].world_from_local, sizeof(glm::mat4));
+        place(renderer, draws_[i], places_[i]);
+    }
+}
+
+void SurfaceWork::place(const Renderer& renderer, Draw& draw, Place& place) {
     const Surface& surface = renderer.scene().surfaces[static_cast<std::size_t>(draw.surface)];
-    if (draw.placed_at == surface.world_from_local && !draw.changes_shape) return;
+    const auto same = [](const glm::mat4& a,
+                         const glm::mat4& b) {  // by bits: a zero that turned negative costs nothing
+        using Bits = std::array<std::uint64_t, 8>;
+        return std::bit_cast<Bits>(a) == std::bit_cast<Bits>(b);
+    };
+    if (!draw.changes_shape && same(draw.placed_at, surface.world_from_local)) return;
     draw.placed_at = surface.world_from_local;
-    draw.normal_from_local = normal_from_local(surface.world_from_local);
+    draw.normal_from_local = glm::mat3(normal_from_local(surface.world_from_local));
     const Box box = world_box(renderer.box(draw.surface), surface.world_from_local);
-    draw.centre = (box.low + box.high) * 0.5f;
+    place.centre = (box.low + box.high) * 0.5f;
 }
 
 // One number orders a draw: state before distance for opaque ones, distance alone for those that blend. The bits of a
 // float that is not negative grow with it. Equal numbers keep the order of draws_, so that they never swap.
 void SurfaceWork::sort(const View& view) {
     for (std::size_t i = 0; i < draws_.size(); ++i) {
-        const glm::vec3 from_eye = draws_[i].centre - view.eye;
+        const glm::vec3 from_eye = places_[i].centre - view.eye;
         const auto distance = std::bit_cast<std::uint32_t>(glm::dot(from_eye, from_eye));
-        std::uint64_t key = std::uint64_t{draws_[i].state} << 32 | (depth_is_there_ ? 0 : distance);
+        std::uint64_t key = std::uint64_t{places_[i].state} << 32 | (depth_is_there_ ? 0 : distance);
         if (part_ == SurfacePart::transparent) key = ~distance;
         order_[i] = {key, static_cast<std::uint32_t>(i)};
     }
@@ -496,9 +530,12 @@ void SurfaceWork::draw(Renderer& renderer, const View& view, int) {
     }
     space_ = view_space(view);
     for (LightSet& set : light_sets_) set.scale = length_scale_of(renderer, view, set);
-    for (Draw& draw : draws_) place(renderer, draw);
+    place_all(renderer);
     sort(view);
-    for (const Order& order : order_) draw_one(renderer, view, draws_[order.draw]);
+    for (std::size_t i = 0; i < order_.size(); ++i) {
+        will_read(&draws_[order_[std::min(i + kAhead, order_.size() - 1)].draw], sizeof(Draw));
+        draw_one(renderer, view, draws_[order_[i].draw]);
+    }
 }
 
 }  // namespace halfframe

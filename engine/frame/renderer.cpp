@@ -44,6 +44,7 @@ void Renderer::prepare(const Scene& scene, const FramePlan& plan) {
     work_of_pass_.clear();
     adoptions_.clear();
     uses_.clear();
+    asked_programs_.clear();
     targets_ = std::make_unique<RenderTargets>(gl_, caps_);
     state_.forget();
     moving_.reset();
@@ -278,7 +279,19 @@ Tier Renderer::tier_of(std::string_view effect) const {
     return decision->tier;
 }
 
+// Kept by what it was asked with, because to ask the cache is to put the whole text together, and effects ask for every
+// surface.
 gl::Program& Renderer::program(const EffectCard& card, int variant, std::span<const std::string_view> defines) {
+    const auto known = std::ranges::find_if(asked_programs_, [&](const AskedProgram& asked) {
+        return asked.card == &card && asked.variant == variant && std::ranges::equal(asked.defines, defines);
+    });
+    if (known != asked_programs_.end()) return *known->program;
+    gl::Program& made = make_program(card, variant, defines);
+    asked_programs_.push_back({&card, variant, {defines.begin(), defines.end()}, &made});
+    return made;
+}
+
+gl::Program& Renderer::make_program(const EffectCard& card, int variant, std::span<const std::string_view> defines) {
     const Tier tier = tier_of(card.name);
     const auto& shaders = card.tiers[static_cast<std::size_t>(tier)].shaders;
     expect(variant >= 0 && static_cast<std::size_t>(variant) < shaders.size(),
@@ -312,15 +325,14 @@ void Renderer::note_program(std::string_view effect, const std::string& prefix, 
         const auto is_here = [&](const gl::Insertion& insertion) { return belongs(insertion, prefix, defines); };
         if (std::ranges::any_of(decision.insertions, is_here)) add(use.insertions, decision.effect);
     }
-    uses_.push_back({program.name(), std::move(use)});
+    uses_.push_back({program.name(), std::move(use), {}});
 }
 
 void Renderer::note_use(const gl::Program& program, const std::string& material_name) {
     const auto noted = std::ranges::find(uses_, program.name(), &NotedUse::program);
     if (noted == uses_.end()) return;
-    ProgramUse& use = noted->use;
-    ++use.draws;
-    if (std::ranges::find(use.users, material_name) == use.users.end()) use.users.push_back(material_name);
+    ++noted->use.draws;
+    if (noted->users.insert(material_name).second) noted->use.users.push_back(material_name);
 }
 
 std::vector<ProgramUse> Renderer::program_uses() const {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 #include "engine/error.h"
@@ -40,10 +41,10 @@ struct CensusRow {
 
 /// A linked program, and what it was linked for.
 struct ProgramUse {
-    std::string effect;             ///< whose card it belongs to
-    std::string defines;            ///< space separated; empty: none
-    std::string insertions;         ///< effects that add code to it, space separated
-    int draws = 0;                  ///< surfaces that are drawn with it; 0: it draws no surface
+    std::string effect;              ///< whose card it belongs to
+    std::string defines;             ///< space separated; empty: none
+    std::string insertions;          ///< effects that add code to it, space separated
+    int draws = 0;                   ///< surfaces that are drawn with it; 0: it draws no surface
     std::vector<std::string> users;  ///< names of their materials, each once
 };
 
@@ -143,6 +144,7 @@ private:
     void change_materials();
     void make_works();
     EffectWork* work_of(const std::string& effect);
+    gl::Program& make_program(const EffectCard& card, int variant, std::span<const std::string_view> defines);
     void note_program(std::string_view effect, const std::string& prefix, const gl::Program& program);
     void adopt_insertions(const std::string& prefix, gl::Program& program);
     void begin(const Pass& pass, std::uint32_t framebuffer);
@@ -177,7 +179,16 @@ private:
     struct NotedUse {
         std::uint32_t program;
         ProgramUse use;
+        std::unordered_set<std::string> users;  ///< those of `use`, to be found among many
     };
+    /// A program that program() was asked for, by what it was asked with.
+    struct AskedProgram {
+        const EffectCard* card;
+        int variant;
+        std::vector<std::string> defines;
+        gl::Program* program;
+    };
+    std::vector<AskedProgram> asked_programs_;  ///< since prepare() began
     std::vector<NotedUse> uses_;
     MaterialChanges changes_;  ///< empty: every material is drawn as it is
     std::vector<Work> works_;  ///< one for each effect that draws or inserts

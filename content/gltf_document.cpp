@@ -65,10 +65,15 @@ std::size_t checked_glb_length(GltfDocument& document, std::string_view bytes) {
     return length;
 }
 
-/// Takes the JSON text and the binary chunk out of a GLB.
-std::string_view split_glb(GltfDocument& document, std::string_view bytes) {
-    const std::size_t length = checked_glb_length(document, bytes);
+/// Where the JSON text and the binary chunk of a GLB are.
+struct GlbChunks {
     std::string_view json;
+    std::optional<std::string_view> binary;
+};
+
+GlbChunks split_glb(GltfDocument& document, std::string_view bytes) {
+    const std::size_t length = checked_glb_length(document, bytes);
+    GlbChunks chunks;
     std::size_t at = kGlbHeaderBytes;
     for (int chunk = 0; at < length; ++chunk) {
         if (length - at < kChunkHeaderBytes) {
@@ -89,16 +94,16 @@ std::string_view split_glb(GltfDocument& document, std::string_view bytes) {
             bad_glb(document, at + 4, chunk == 0 ? "the first chunk is not JSON" : "there is a second JSON chunk");
         }
         if (chunk == 0) {
-            json = content;
+            chunks.json = content;
         } else if (type == kBinaryChunk) {
             if (chunk != 1) {
                 bad_glb(document, at + 4, "the binary chunk is not the second one");
             }
-            document.binary_chunk = std::string(content);
+            chunks.binary = content;
         }
         at += kChunkHeaderBytes + chunk_bytes;
     }
-    return json;
+    return chunks;
 }
 
 struct Version {
@@ -202,12 +207,13 @@ std::optional<std::size_t> index_in(const JsonPlace& owner, std::string_view key
 GltfDocument read_gltf_document(const std::filesystem::path& file) {
     GltfDocument document{
         .file = file, .source = {file.string(), kAdvice}, .json = {}, .binary_chunk = {}, .notices = {}};
-    const std::string bytes = read_regular_file(file, kMostFileBytes, file.string());
+    std::string bytes = read_regular_file(file, kMostFileBytes, file.string());
     const bool binary = bytes.starts_with("glTF");
     if (!binary && file.extension() == ".glb") {
         bad_glb(document, 0, "a GLB starts with the letters glTF and this file does not");
     }
-    const std::string_view text = binary ? split_glb(document, bytes) : std::string_view(bytes);
+    const GlbChunks chunks = binary ? split_glb(document, bytes) : GlbChunks{bytes, std::nullopt};
+    const std::string_view text = chunks.json;
     if (text.size() > kMostJsonBytes) {
         throw Error(Fault::input,
                     fmt::format("{}: the JSON has {} bytes, more than the {} that are read; move its data to "
@@ -215,6 +221,13 @@ GltfDocument read_gltf_document(const std::filesystem::path& file) {
                                 document.source.file, text.size(), kMostJsonBytes));
     }
     document.json = parse_json(text, document.source);
+    if (chunks.binary) {  // in the memory it was read into
+        const auto start = static_cast<std::size_t>(chunks.binary->data() - bytes.data());
+        const std::size_t size = chunks.binary->size();
+        bytes.erase(0, start);
+        bytes.resize(size);
+        document.binary_chunk = std::move(bytes);
+    }
     return document;
 }
 

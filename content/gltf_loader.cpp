@@ -1,4 +1,4 @@
-// load_gltf(): document, checks, bytes, tinygltf, then the node tree as surfaces and cameras.
+// load_gltf(): document, checks, bytes, model, then the node tree as surfaces and cameras.
 #include "content/content.h"
 
 #include <algorithm>

@@ -1,11 +1,10 @@
-// The one place that calls tinygltf: a cleaned copy of the document in, its model and decoded images out.
+// The one place that calls tinygltf: its types are filled from the document, images are decoded by its stb_image.
 #include "content/gltf_model.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <exception>
-#include <initializer_list>
+#include <map>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -14,135 +13,169 @@
 namespace halfframe::content {
 namespace {
 
-using nlohmann::json;
+int whole(const JsonPlace& place) { return static_cast<int>(place.whole()); }
 
-/// tinygltf wants 3 where JSON may say 3.0.
-json with_whole_numbers(const json& value) {
-    if (value.is_structured()) {
-        json result = value;
-        for (json& child : result) {
-            child = with_whole_numbers(child);
-        }
-        return result;
-    }
-    if (value.is_number_float() && std::abs(value.get<double>()) < 1e9 &&
-        std::trunc(value.get<double>()) == value.get<double>()) {
-        return static_cast<std::int64_t>(value.get<double>());
-    }
-    return value;
+int index_or_none(const JsonPlace& owner, std::string_view key) { return owner.has(key) ? whole(owner.at(key)) : -1; }
+
+std::size_t offset_of(const JsonPlace& owner, std::string_view key) {
+    return owner.has(key) ? static_cast<std::size_t>(owner.at(key).whole(0, kMostBufferBytes)) : 0;
 }
 
-/// Elements of root[key] with only the keys that were checked and are read.
-json cleaned(const json& root, const char* key, std::initializer_list<const char*> kept) {
-    json result = json::array();
-    const auto found = root.find(key);
-    if (found != root.end()) {
-        for (const json& element : *found) {
-            json copy = json::object();
-            for (const char* name : kept) {
-                const auto child = element.find(name);
-                if (child != element.end()) {
-                    copy[name] = with_whole_numbers(*child);
-                }
-            }
-            const auto name = element.find("name");
-            if (name != element.end() && name->is_string()) {
-                copy["name"] = *name;
-            }
-            result.push_back(std::move(copy));
-        }
+std::string name_of(const JsonPlace& owner) {
+    const auto name = owner.value().find("name");
+    return name != owner.value().end() && name->is_string() ? name->get<std::string>() : std::string();
+}
+
+std::vector<double> numbers(const JsonPlace& owner, std::string_view key) {
+    std::vector<double> result;
+    if (!owner.has(key)) return result;
+    const nlohmann::json& list = owner.at(key).value();
+    result.reserve(list.size());
+    for (const nlohmann::json& number : list) result.push_back(number.get<double>());
+    return result;
+}
+
+std::vector<int> indices(const JsonPlace& owner, std::string_view key) {
+    std::vector<int> result;
+    if (!owner.has(key)) return result;
+    const JsonPlace list = owner.at(key);
+    result.reserve(list.size());
+    for (std::size_t i = 0; i < list.size(); ++i) result.push_back(whole(list.at(i)));
+    return result;
+}
+
+std::map<std::string, int> accessors_by_name(const JsonPlace& place) {
+    std::map<std::string, int> result;
+    for (const auto& [name, child] : place.value().items())
+        result.emplace_hint(result.end(), name, whole(place.at(name)));
+    return result;
+}
+
+tinygltf::BufferView view_of(const JsonPlace& view) {
+    tinygltf::BufferView result;
+    result.buffer = whole(view.at("buffer"));
+    result.byteOffset = offset_of(view, "byteOffset");
+    result.byteLength = offset_of(view, "byteLength");
+    result.byteStride = offset_of(view, "byteStride");
+    return result;
+}
+
+int type_of(const std::string& type) {
+    if (type == "SCALAR") return TINYGLTF_TYPE_SCALAR;
+    if (type == "VEC2") return TINYGLTF_TYPE_VEC2;
+    if (type == "VEC3") return TINYGLTF_TYPE_VEC3;
+    if (type == "VEC4") return TINYGLTF_TYPE_VEC4;
+    if (type == "MAT2") return TINYGLTF_TYPE_MAT2;
+    return type == "MAT3" ? TINYGLTF_TYPE_MAT3 : TINYGLTF_TYPE_MAT4;
+}
+
+tinygltf::Accessor accessor_of(const JsonPlace& accessor) {
+    tinygltf::Accessor result;
+    result.bufferView = index_or_none(accessor, "bufferView");
+    result.byteOffset = offset_of(accessor, "byteOffset");
+    result.componentType = whole(accessor.at("componentType"));
+    result.normalized = accessor.has("normalized") && accessor.at("normalized").boolean();
+    result.count = static_cast<std::size_t>(accessor.at("count").whole());
+    result.type = type_of(accessor.at("type").text());
+    result.sparse.isSparse = accessor.has("sparse");
+    if (!result.sparse.isSparse) return result;
+    const JsonPlace sparse = accessor.at("sparse");
+    result.sparse.count = whole(sparse.at("count"));
+    result.sparse.indices.bufferView = whole(sparse.at("indices").at("bufferView"));
+    result.sparse.indices.byteOffset = static_cast<int>(offset_of(sparse.at("indices"), "byteOffset"));
+    result.sparse.indices.componentType = whole(sparse.at("indices").at("componentType"));
+    result.sparse.values.bufferView = whole(sparse.at("values").at("bufferView"));
+    result.sparse.values.byteOffset = static_cast<int>(offset_of(sparse.at("values"), "byteOffset"));
+    return result;
+}
+
+tinygltf::Primitive primitive_of(const JsonPlace& primitive) {
+    tinygltf::Primitive result;
+    result.mode = primitive.has("mode") ? whole(primitive.at("mode")) : TINYGLTF_MODE_TRIANGLES;
+    result.indices = index_or_none(primitive, "indices");
+    result.material = index_or_none(primitive, "material");
+    result.attributes = accessors_by_name(primitive.at("attributes"));
+    for_each_object(primitive, "targets",
+                    [&](const JsonPlace& target, std::size_t) { result.targets.push_back(accessors_by_name(target)); });
+    return result;
+}
+
+tinygltf::Mesh mesh_of(const JsonPlace& mesh) {
+    tinygltf::Mesh result;
+    result.name = name_of(mesh);
+    for_each_object(mesh, "primitives", [&](const JsonPlace& primitive, std::size_t) {
+        result.primitives.push_back(primitive_of(primitive));
+    });
+    return result;
+}
+
+tinygltf::Camera camera_of(const JsonPlace& camera) {
+    const auto number = [](const JsonPlace& lens, std::string_view key) {
+        return lens.has(key) ? lens.at(key).number() : 0.0;
+    };
+    tinygltf::Camera result;
+    result.name = name_of(camera);
+    result.type = camera.at("type").text();
+    const JsonPlace lens = camera.at(result.type);
+    if (result.type == "orthographic") {
+        result.orthographic.ymag = number(lens, "ymag");
+        result.orthographic.znear = number(lens, "znear");
+        result.orthographic.zfar = number(lens, "zfar");
+    } else {
+        result.perspective.yfov = number(lens, "yfov");
+        result.perspective.znear = number(lens, "znear");
+        result.perspective.zfar = number(lens, "zfar");
     }
     return result;
 }
 
-/// Buffers under made-up names, for give_bytes(), and one more of a single byte with a view of it, for accessors
-/// without a view: glTF says they are zero, tinygltf 2.7 refuses them. parse_gltf_model() takes that view off again.
-void add_buffers(const json& root, const std::vector<bool>& buffer_has_data, json& result) {
-    json buffers = cleaned(root, "buffers", {"byteLength"});
-    for (std::size_t i = 0; i < buffers.size(); ++i) {
-        buffers[i]["uri"] = fmt::format("buffer{}", i);
-        if (!buffer_has_data[i]) {
-            buffers[i]["byteLength"] = 1;
-        }
-    }
-    json views = cleaned(root, "bufferViews", {"buffer", "byteOffset", "byteLength", "byteStride"});
-    views.push_back({{"buffer", buffers.size()}, {"byteLength", 1}});
-    buffers.push_back({{"uri", fmt::format("buffer{}", buffers.size())}, {"byteLength", 1}});
-    json accessors = cleaned(root, "accessors",
-                             {"bufferView", "byteOffset", "componentType", "normalized", "count", "type", "sparse"});
-    for (json& accessor : accessors) {
-        if (!accessor.contains("bufferView")) {
-            accessor["bufferView"] = views.size() - 1;
-        }
-    }
-    result["buffers"] = std::move(buffers);
-    result["bufferViews"] = std::move(views);
-    result["accessors"] = std::move(accessors);
-}
-
-json cleaned_document(const json& root, const std::vector<bool>& buffer_has_data) {
-    json result = {{"asset", {{"version", "2.0"}}}};
-    add_buffers(root, buffer_has_data, result);
-    result["images"] = cleaned(root, "images", {"bufferView", "mimeType"});
-    for (std::size_t i = 0; i < result["images"].size(); ++i) {
-        if (!result["images"][i].contains("bufferView")) {
-            result["images"][i]["uri"] = fmt::format("image{}", i);
-        }
-    }
-    result["samplers"] = cleaned(root, "samplers", {"magFilter", "minFilter", "wrapS", "wrapT"});
-    result["textures"] = cleaned(root, "textures", {"sampler", "source"});
-    result["materials"] = cleaned(root, "materials", {});  // read from the document, see gltf_materials.cpp
-    result["meshes"] = cleaned(root, "meshes", {"primitives"});
-    result["cameras"] = cleaned(root, "cameras", {"type", "perspective", "orthographic"});
-    result["nodes"] =
-        cleaned(root, "nodes", {"children", "mesh", "camera", "skin", "matrix", "translation", "rotation", "scale"});
-    result["scenes"] = cleaned(root, "scenes", {"nodes"});
+tinygltf::Node node_of(const JsonPlace& node) {
+    tinygltf::Node result;
+    result.name = name_of(node);
+    result.mesh = index_or_none(node, "mesh");
+    result.camera = index_or_none(node, "camera");
+    result.skin = index_or_none(node, "skin");
+    result.children = indices(node, "children");
+    result.matrix = numbers(node, "matrix");
+    result.translation = numbers(node, "translation");
+    result.rotation = numbers(node, "rotation");
+    result.scale = numbers(node, "scale");
     return result;
 }
 
-/// Extensions and extras inside what was kept go too: tinygltf reads them recursively, and we read them ourselves.
-void drop_extensions(json& value) {
-    if (value.is_object()) {
-        value.erase("extensions");
-        value.erase("extras");
-    }
-    if (value.is_structured()) {
-        for (json& child : value) {
-            drop_extensions(child);
-        }
-    }
+tinygltf::Sampler sampler_of(const JsonPlace& sampler) {
+    tinygltf::Sampler result;
+    result.minFilter = index_or_none(sampler, "minFilter");
+    result.magFilter = index_or_none(sampler, "magFilter");
+    if (sampler.has("wrapS")) result.wrapS = whole(sampler.at("wrapS"));
+    if (sampler.has("wrapT")) result.wrapT = whole(sampler.at("wrapT"));
+    return result;
 }
 
-struct Callbacks {
-    const GltfDocument* document = nullptr;
-    const GltfModel* gltf = nullptr;
-    GltfResources* resources = nullptr;
-    const std::set<std::size_t>* used_images = nullptr;
-    std::vector<DecodedImage> images;
-    std::uint64_t pixels = 0;
-};
-
-/// "buffer7" or "image7" in what tinygltf made of it ("./buffer7"); nothing else is asked for.
-std::string* bytes_named(GltfResources& resources, const std::string& path) {
-    const std::size_t slash = path.rfind('/');
-    const std::string name = slash == std::string::npos ? path : path.substr(slash + 1);
-    const bool buffer = name.starts_with("buffer");
-    std::vector<std::string>& list = buffer ? resources.buffers : resources.images;
-    const auto index = static_cast<std::size_t>(std::stoul(name.substr(buffer ? 6 : 5)));
-    return index < list.size() ? &list[index] : nullptr;
+tinygltf::Texture texture_of(const JsonPlace& texture) {
+    tinygltf::Texture result;
+    result.sampler = index_or_none(texture, "sampler");
+    result.source = index_or_none(texture, "source");
+    return result;
 }
 
-bool file_exists(const std::string& path, void* user) {
-    return bytes_named(*static_cast<Callbacks*>(user)->resources, path) != nullptr;
+tinygltf::Image image_of(const JsonPlace& image) {
+    tinygltf::Image result;
+    result.name = name_of(image);
+    result.bufferView = index_or_none(image, "bufferView");
+    return result;
 }
 
-std::string same_path(const std::string& path, void*) { return path; }
+tinygltf::Scene scene_of(const JsonPlace& scene) {
+    tinygltf::Scene result;
+    result.nodes = indices(scene, "nodes");
+    return result;
+}
 
-bool give_bytes(std::vector<unsigned char>* out, std::string*, const std::string& path, void* user) {
-    std::string& bytes = *bytes_named(*static_cast<Callbacks*>(user)->resources, path);
-    out->assign(bytes.begin(), bytes.end());
-    std::string().swap(bytes);
-    return true;
+template <typename T>
+void read_all(const JsonPlace& root, std::string_view key, T (*read)(const JsonPlace&), std::vector<T>& into) {
+    into.reserve(count_of(root, key));
+    for_each_object(root, key, [&](const JsonPlace& element, std::size_t) { into.push_back(read(element)); });
 }
 
 struct Size {
@@ -185,70 +218,72 @@ std::optional<Size> size_in_header(const unsigned char* bytes, std::size_t count
     return std::nullopt;
 }
 
-void check_size(Callbacks& callbacks, std::size_t index, const Size& size) {
-    const JsonPlace place = callbacks.document->root().at("images").at(index);
+void check_size(const JsonPlace& image, const Size& size, std::uint64_t& pixels_so_far) {
     if (size.width == 0 || size.height == 0) {
-        place.fail("has no pixels");
+        image.fail("has no pixels");
     }
     const std::string advice = "make the image smaller";
     if (size.width > kLargestImageSide || size.height > kLargestImageSide ||
         size.width * size.height > kLargestImagePixels) {
-        place.fail(fmt::format("has {} x {} pixels; at most {} a side and {} in all are read", size.width, size.height,
+        image.fail(fmt::format("has {} x {} pixels; at most {} a side and {} in all are read", size.width, size.height,
                                kLargestImageSide, kLargestImagePixels),
                    advice);
     }
-    callbacks.pixels += size.width * size.height;
-    if (callbacks.pixels > kMostImagePixels) {
-        place.fail(fmt::format("all images up to here have over {} pixels", kMostImagePixels), advice);
+    pixels_so_far += size.width * size.height;
+    if (pixels_so_far > kMostImagePixels) {
+        image.fail(fmt::format("all images up to here have over {} pixels", kMostImagePixels), advice);
     }
 }
 
 /// Decodes one image through tinygltf's stb_image; 16 bits a channel are cut to the upper 8.
-bool decode_image(tinygltf::Image* image, const int index, std::string*, std::string*, int, int,
-                  const unsigned char* bytes, int count, void* user) {
-    Callbacks& callbacks = *static_cast<Callbacks*>(user);
-    const auto at = static_cast<std::size_t>(index);
-    if (!callbacks.used_images->contains(at)) {
-        return true;
-    }
-    const JsonPlace place = callbacks.document->root().at("images").at(at);
-    if (image->bufferView >= 0) {
-        callbacks.gltf->expect_data(static_cast<std::size_t>(image->bufferView));
-    }
-    const std::optional<Size> size = count > 0 ? size_in_header(bytes, static_cast<std::size_t>(count)) : std::nullopt;
+DecodedImage decoded(const JsonPlace& place, std::string_view bytes, std::uint64_t& pixels_so_far) {
+    const auto* start = reinterpret_cast<const unsigned char*>(bytes.data());
+    const std::optional<Size> size = size_in_header(start, bytes.size());
     if (!size) {
         place.fail("is neither a PNG nor a JPEG", "convert it to PNG or JPEG");
     }
-    check_size(callbacks, at, *size);
-    tinygltf::Image decoded;
+    check_size(place, *size, pixels_so_far);
+    tinygltf::Image image;
     std::string message;
-    if (!tinygltf::LoadImageData(&decoded, index, &message, nullptr, 0, 0, bytes, count, nullptr) ||
-        decoded.component != 4 || decoded.width != static_cast<int>(size->width) ||
-        decoded.height != static_cast<int>(size->height)) {
+    if (!tinygltf::LoadImageData(&image, 0, &message, nullptr, 0, 0, start, static_cast<int>(bytes.size()), nullptr) ||
+        image.component != 4 || image.width != static_cast<int>(size->width) ||
+        image.height != static_cast<int>(size->height)) {
         std::replace(message.begin(), message.end(), '\n', ' ');
         place.fail(fmt::format("cannot be decoded ({})", message), "save the image again as PNG or JPEG");
     }
-    DecodedImage& result = callbacks.images[at];
-    result.width = decoded.width;
-    result.height = decoded.height;
-    if (decoded.bits == 16) {
-        result.rgba.resize(decoded.image.size() / 2);
-        for (std::size_t i = 0; i < result.rgba.size(); ++i) {
-            result.rgba[i] = decoded.image[2 * i + 1];  // the upper byte: samples are little-endian in memory
-        }
-    } else {
-        result.rgba = std::move(decoded.image);
+    DecodedImage result{.width = image.width, .height = image.height, .rgba = std::move(image.image)};
+    if (image.bits == 16) {  // in place: the upper byte, samples are little-endian in memory
+        for (std::size_t i = 0; 2 * i + 1 < result.rgba.size(); ++i) result.rgba[i] = result.rgba[2 * i + 1];
+        result.rgba.resize(result.rgba.size() / 2);
+        result.rgba.shrink_to_fit();
     }
-    image->width = result.width;
-    image->height = result.height;
-    return true;
+    return result;
+}
+
+void decode_images(const GltfDocument& document, GltfResources& resources, const std::set<std::size_t>& used_images,
+                   GltfModel& gltf) {
+    gltf.images.resize(resources.images.size());
+    std::uint64_t pixels = 0;
+    for (const std::size_t at : used_images) {
+        const JsonPlace place = document.root().at("images").at(at);
+        const int view = gltf.model.images.at(at).bufferView;
+        std::string_view bytes = resources.images.at(at);
+        if (view >= 0) {
+            gltf.expect_data(static_cast<std::size_t>(view));
+            const tinygltf::BufferView& range = gltf.model.bufferViews.at(static_cast<std::size_t>(view));
+            bytes = std::string_view(gltf.buffers.at(static_cast<std::size_t>(range.buffer)))
+                        .substr(range.byteOffset, range.byteLength);
+        }
+        gltf.images[at] = decoded(place, bytes, pixels);
+        std::string().swap(resources.images[at]);
+    }
 }
 
 }  // namespace
 
 void GltfModel::expect_data(std::size_t buffer_view) const {
     const auto buffer = static_cast<std::size_t>(model.bufferViews.at(buffer_view).buffer);
-    if (!buffer_has_data.at(buffer)) {
+    if (buffers.at(buffer).empty()) {
         throw Error(Fault::input, fmt::format("{}: /buffers/{}: has no 'uri' and there is no binary chunk for it; {}",
                                               source.file, buffer, source.advice));
     }
@@ -264,44 +299,19 @@ GltfModel parse_gltf_model(const GltfDocument& document, GltfResources resources
                            const std::set<std::size_t>& used_images) {
     GltfModel result;
     result.source = document.source;
-    for (std::string& bytes : resources.buffers) {
-        result.buffer_has_data.push_back(!bytes.empty());
-        if (bytes.empty()) {
-            bytes.resize(1);
-        }
-    }
-    json cleaned_json = cleaned_document(document.json, result.buffer_has_data);
-    drop_extensions(cleaned_json);
-    const std::string text = cleaned_json.dump();
-    cleaned_json = json();
-    resources.buffers.emplace_back(1, '\0');
-    Callbacks callbacks{&document, &result, &resources, &used_images, {}, 0};
-    callbacks.images.resize(resources.images.size());
-    tinygltf::TinyGLTF parser;
-    parser.SetFsCallbacks({&file_exists, &same_path, &give_bytes, nullptr, &callbacks});
-    parser.SetImageLoader(&decode_image, &callbacks);
-    std::string error;
-    std::string warning;
-    bool done = false;
-    try {
-        done = parser.LoadASCIIFromString(&result.model, &error, &warning, text.data(),
-                                          static_cast<unsigned int>(text.size()), ".");
-    } catch (const Error&) {
-        throw;  // ours, from decode_image
-    } catch (const std::exception& exception) {
-        error += exception.what();
-    }
-    if (!done) {
-        std::replace(error.begin(), error.end(), '\n', ' ');
-        throw Error(Fault::input, fmt::format("{}: tinygltf refused the file: {}; {}", document.source.file, error,
-                                              document.source.advice));
-    }
-    result.images = std::move(callbacks.images);
-    for (tinygltf::Accessor& accessor : result.model.accessors) {
-        if (accessor.bufferView == static_cast<int>(result.model.bufferViews.size()) - 1) {
-            accessor.bufferView = -1;
-        }
-    }
+    result.buffers = std::move(resources.buffers);
+    const JsonPlace root = document.root();
+    tinygltf::Model& model = result.model;
+    read_all(root, "bufferViews", &view_of, model.bufferViews);
+    read_all(root, "accessors", &accessor_of, model.accessors);
+    read_all(root, "images", &image_of, model.images);
+    read_all(root, "samplers", &sampler_of, model.samplers);
+    read_all(root, "textures", &texture_of, model.textures);
+    read_all(root, "meshes", &mesh_of, model.meshes);
+    read_all(root, "cameras", &camera_of, model.cameras);
+    read_all(root, "nodes", &node_of, model.nodes);
+    read_all(root, "scenes", &scene_of, model.scenes);
+    decode_images(document, resources, used_images, result);
     return result;
 }
 

@@ -1,4 +1,7 @@
 // A checked glTF document in tinygltf's types, and the two things read from it: images and primitives.
+//
+// The types are filled here and not by tinygltf's own reader, which would write the JSON out and parse it a second
+// time, and which takes what the checks refuse. tinygltf decodes the images.
 #pragma once
 
 #include <array>
@@ -23,15 +26,15 @@ struct DecodedImage {
 
 struct GltfModel {
     JsonSource source;
-    tinygltf::Model model;
+    tinygltf::Model model;             ///< its buffers and images have no bytes
+    std::vector<std::string> buffers;  ///< empty: without data
     std::vector<DecodedImage> images;
-    std::vector<bool> buffer_has_data;
 
     /// Error(input) when the buffer behind the view has no data.
     void expect_data(std::size_t buffer_view) const;
 };
 
-/// Hands tinygltf only what was checked: known keys, and bytes already in memory. Decodes the images in `used_images`.
+/// `document` was checked. Decodes the images in `used_images`; their files are gone as soon as they are decoded.
 [[nodiscard]] GltfModel parse_gltf_model(const GltfDocument& document, GltfResources resources,
                                          const std::set<std::size_t>& used_images);
 

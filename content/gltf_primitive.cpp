@@ -21,8 +21,8 @@ namespace {
 const unsigned char* bytes_at(const GltfModel& gltf, int view, std::size_t offset) {
     gltf.expect_data(static_cast<std::size_t>(view));
     const tinygltf::BufferView& buffer_view = gltf.model.bufferViews.at(static_cast<std::size_t>(view));
-    return gltf.model.buffers.at(static_cast<std::size_t>(buffer_view.buffer)).data.data() + buffer_view.byteOffset +
-           offset;
+    const std::string& bytes = gltf.buffers.at(static_cast<std::size_t>(buffer_view.buffer));
+    return reinterpret_cast<const unsigned char*>(bytes.data()) + buffer_view.byteOffset + offset;
 }
 
 template <typename T>
@@ -274,7 +274,8 @@ std::vector<T> read_elements(const GltfModel& gltf, int index) {
     const int given = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type));
     if (is_plain(gltf, accessor, given, T::length())) {
         std::vector<T> result(accessor.count);
-        std::memcpy(result.data(), bytes_at(gltf, accessor.bufferView, accessor.byteOffset), accessor.count * sizeof(T));
+        std::memcpy(result.data(), bytes_at(gltf, accessor.bufferView, accessor.byteOffset),
+                    accessor.count * sizeof(T));
         return result;
     }
     const bool starts_at_zero = accessor.bufferView < 0;  // glTF 2.0: without a view, all zeros before sparse values

@@ -2,8 +2,6 @@
 #include "content/json_place.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <vector>
@@ -24,14 +22,6 @@ std::string line_and_column(std::string_view text, std::size_t byte) {
     const auto line = 1 + std::count(before.begin(), before.end(), '\n');
     const std::size_t line_start = before.rfind('\n') == std::string_view::npos ? 0 : before.rfind('\n') + 1;
     return fmt::format("line {}, column {}", line, before.size() - line_start + 1);
-}
-
-/// Made for every value that is looked at, so without a format string.
-std::string below(const std::string& pointer, std::string_view child) {
-    std::string result;
-    result.reserve(pointer.size() + 1 + child.size());
-    result.append(pointer).append(1, '/').append(child);
-    return result;
 }
 
 /// Byte where the brackets first nest deeper than `deepest`, or npos.
@@ -61,11 +51,29 @@ std::size_t too_deep_at(std::string_view text, int deepest) {
 
 }  // namespace
 
+JsonPlace::JsonPlace(const JsonPlace& above, const nlohmann::json& value, Step step)
+    : value_(&value), source_(above.source_), start_(above.start_), steps_(above.steps_), depth_(above.depth_) {
+    if (depth_ == steps_.size()) {
+        start_ = above.pointer();
+        depth_ = 0;
+    }
+    steps_[depth_++] = step;
+}
+
+std::string JsonPlace::pointer() const {
+    std::string result = start_;
+    for (std::size_t i = 0; i < depth_; ++i) {
+        result += '/';
+        result += steps_[i].key != nullptr ? *steps_[i].key : std::to_string(steps_[i].element);
+    }
+    return result;
+}
+
 void JsonPlace::fail(const std::string& what) const { fail(what, source_->advice); }
 
 void JsonPlace::fail(const std::string& what, const std::string& advice) const {
-    throw Error(Fault::input,
-                fmt::format("{}: {}: {}; {}", source_->file, pointer_.empty() ? "/" : pointer_, what, advice));
+    const std::string where = pointer();
+    throw Error(Fault::input, fmt::format("{}: {}: {}; {}", source_->file, where.empty() ? "/" : where, what, advice));
 }
 
 void JsonPlace::expect_object() const {
@@ -85,7 +93,7 @@ JsonPlace JsonPlace::at(std::string_view key) const {
     if (found == value_->end()) {
         fail(fmt::format("'{}' is missing", key));
     }
-    return {*found, *source_, below(pointer_, key)};
+    return {*this, *found, Step{&found.key(), 0}};
 }
 
 std::size_t JsonPlace::size() const {
@@ -97,14 +105,13 @@ std::size_t JsonPlace::size() const {
 
 JsonPlace JsonPlace::at(std::size_t index) const {
     expect(index < size(), "an element of a JSON array was asked for past its end");
-    std::array<char, 24> digits{};
-    const char* end = std::to_chars(digits.data(), digits.data() + digits.size(), index).ptr;
-    return {(*value_)[index], *source_, below(pointer_, {digits.data(), end})};
+    return {*this, (*value_)[index], Step{nullptr, index}};
 }
 
 std::uint64_t JsonPlace::whole(std::uint64_t lowest, std::uint64_t highest) const {
     std::uint64_t result = 0;
-    if (value_->is_number_unsigned()) {
+    // A parser calls whole numbers from 0 up unsigned; those that were put into the document may be signed.
+    if (value_->is_number_unsigned() || (value_->is_number_integer() && value_->get<std::int64_t>() >= 0)) {
         result = value_->get<std::uint64_t>();
     } else if (value_->is_number_float() && value_->get<double>() >= 0.0 &&
                value_->get<double>() <= kLargestExactWhole &&

@@ -1,6 +1,7 @@
 // A value in a JSON file that knows its place, so that every complaint about it names file and JSON pointer.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <initializer_list>
@@ -23,13 +24,13 @@ struct JsonSource {
 class JsonPlace {
 public:
     JsonPlace(const nlohmann::json& value, const JsonSource& source, std::string pointer = {})
-        : value_(&value), source_(&source), pointer_(std::move(pointer)) {}
+        : value_(&value), source_(&source), start_(std::move(pointer)) {}
 
     [[noreturn]] void fail(const std::string& what) const;
     [[noreturn]] void fail(const std::string& what, const std::string& advice) const;
 
     [[nodiscard]] const nlohmann::json& value() const { return *value_; }
-    [[nodiscard]] const std::string& pointer() const { return pointer_; }
+    [[nodiscard]] std::string pointer() const;
     [[nodiscard]] const JsonSource& source() const { return *source_; }
 
     void expect_object() const;
@@ -55,9 +56,19 @@ public:
     void expect_only(std::initializer_list<std::string_view> keys) const;
 
 private:
+    /// One step down: a key, which the document holds, or an element where `key` is nullptr.
+    struct Step {
+        const std::string* key = nullptr;
+        std::size_t element = 0;
+    };
+    JsonPlace(const JsonPlace& above, const nlohmann::json& value, Step step);
+
     const nlohmann::json* value_;
     const JsonSource* source_;
-    std::string pointer_;
+    // The way here. Put into words only for a complaint: half of the time of a load went into pointers nobody read.
+    std::string start_;
+    std::array<Step, 8> steps_{};
+    std::size_t depth_ = 0;  ///< of steps_ that count
 };
 
 /// Parses JSON text. Bad text, or nesting deeper than `deepest`: Error(input) with line and column.

@@ -269,17 +269,31 @@ double alpha_coverage(const Image& image, float alpha_cutoff) {
     return static_cast<double>(passing) / (static_cast<double>(image.rgba.size()) / 4.0);
 }
 
+void for_each_level(const Image& image, TexelKind kind, std::optional<float> alpha_cutoff,
+                    const std::function<void(const Image&)>& visit) {
+    visit(image);
+    const double coverage = alpha_cutoff ? alpha_coverage(image, *alpha_cutoff) : 0.0;
+    Image level;
+    for (const Image* above = &image; above->width > 1 || above->height > 1; above = &level) {
+        level = reduced(*above, std::max(above->width / 2, 1), std::max(above->height / 2, 1), kind);
+        if (!alpha_cutoff) {
+            visit(level);
+            continue;
+        }
+        // On a copy: the next level is the mean of true alphas, not of scaled ones.
+        Image scaled = level;
+        keep_coverage(scaled, *alpha_cutoff, coverage);
+        visit(scaled);
+    }
+}
+
 std::vector<Image> mip_chain(Image image, TexelKind kind, std::optional<float> alpha_cutoff) {
     std::vector<Image> levels;
-    levels.push_back(std::move(image));
-    while (levels.back().width > 1 || levels.back().height > 1) {
-        const Image& above = levels.back();
-        levels.push_back(reduced(above, std::max(above.width / 2, 1), std::max(above.height / 2, 1), kind));
-    }
-    if (!alpha_cutoff) return levels;
-    // After the chain is made: a level is the mean of true alphas, not of scaled ones.
-    const double coverage = alpha_coverage(levels.front(), *alpha_cutoff);
-    for (std::size_t level = 1; level < levels.size(); ++level) keep_coverage(levels[level], *alpha_cutoff, coverage);
+    levels.emplace_back();  // the image, moved here when nothing reads it any more
+    for_each_level(image, kind, alpha_cutoff, [&](const Image& level) {
+        if (&level != &image) levels.push_back(level);
+    });
+    levels.front() = std::move(image);
     return levels;
 }
 

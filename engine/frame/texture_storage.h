@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -44,6 +45,9 @@ struct TextureUse {
 /// passes the cutoff as of level 0, so that leaves do not thin out with distance (I. Castano, "Computing Alpha
 /// Mipmaps", 2010).
 [[nodiscard]] std::vector<Image> mip_chain(Image image, TexelKind kind, std::optional<float> alpha_cutoff);
+/// The same levels one after the other, the first `image` itself, so that no more than two more are held at a time.
+void for_each_level(const Image& image, TexelKind kind, std::optional<float> alpha_cutoff,
+                    const std::function<void(const Image&)>& visit);
 /// Share of texels whose alpha passes.
 [[nodiscard]] double alpha_coverage(const Image& image, float alpha_cutoff);
 
@@ -51,8 +55,8 @@ struct TextureUse {
 /// larger of the two in each direction; the smaller one is filtered. Spares a fetch.
 [[nodiscard]] Image packed_surface_map(const Image& normals, const Image& metallic_roughness);
 
-/// The colours of one image with the occlusion (red) of another as their alpha, as large as the larger of the two in each
-/// direction; the smaller one is filtered, colours in linear light. Spares a fetch where alpha means nothing.
+/// The colours of one image with the occlusion (red) of another as their alpha, as large as the larger of the two in
+/// each direction; the smaller one is filtered, colours in linear light. Spares a fetch where alpha means nothing.
 [[nodiscard]] Image color_with_occlusion(const Image& color, const Image& occlusion);
 
 /// Least channels that hold an image of data: 1 when r = g = b and alpha is 255, 4 otherwise.

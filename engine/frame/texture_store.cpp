@@ -53,8 +53,9 @@ void TextureStore::fit(const Scene& scene, std::vector<std::string>& notices) {
     }
 }
 
-Image TextureStore::fitted_image(const Scene& scene, const Texture& texture, TexelKind kind,
-                                 std::vector<std::string>& notices) const {
+// The image of the scene itself where it is small enough, else `made`: a copy of a large one would not fit beside it.
+const Image& TextureStore::fitted_image(const Scene& scene, const Texture& texture, TexelKind kind,
+                                        std::vector<std::string>& notices, Image& made) const {
     auto index = static_cast<std::size_t>(texture.image);
     const bool is_new = index >= scene.images.size();
     const Image& source = is_new ? more_images_[index - scene.images.size()] : scene.images[index];
@@ -64,12 +65,13 @@ Image TextureStore::fitted_image(const Scene& scene, const Texture& texture, Tex
     int most = caps_.max_texture_size;
     if (index < dropped_levels_.size())
         most = std::min(most, std::max(std::max(source.width, source.height) >> dropped_levels_[index], 1));
-    Image image = fitted(source, most, needs_power_of_two, kind);
-    if (image.width != source.width || image.height != source.height) {
-        notices.push_back(fmt::format("texture {} is {}x{} texels and was made {}x{} for {}", source.name, source.width,
-                                      source.height, image.width, image.height, caps_.device));
-    }
-    return image;
+    const bool fits = source.width <= most && source.height <= most &&
+                      (!needs_power_of_two || (is_power_of_two(source.width) && is_power_of_two(source.height)));
+    if (fits) return source;
+    made = fitted(source, most, needs_power_of_two, kind);
+    notices.push_back(fmt::format("texture {} is {}x{} texels and was made {}x{} for {}", source.name, source.width,
+                                  source.height, made.width, made.height, caps_.device));
+    return made;
 }
 
 std::uint32_t TextureStore::get(const Scene& scene, const Texture& texture, const TextureUse& use,
@@ -78,7 +80,8 @@ std::uint32_t TextureStore::get(const Scene& scene, const Texture& texture, cons
         return entry.texture == texture && entry.packed_with < 0 && entry.use == use;
     });
     if (found != entries_.end()) return found->object.name();
-    return upload(fitted_image(scene, texture, use.kind, notices), texture, use, -1);
+    Image made;
+    return upload(fitted_image(scene, texture, use.kind, notices, made), texture, use, -1);
 }
 
 std::uint32_t TextureStore::get_packed(const Scene& scene, const Texture& first, const Texture& second,
@@ -88,8 +91,9 @@ std::uint32_t TextureStore::get_packed(const Scene& scene, const Texture& first,
     });
     if (found != entries_.end()) return found->object.name();
     const bool of_surface = use.kind == TexelKind::packed_surface;
-    const Image one = fitted_image(scene, first, of_surface ? TexelKind::normal : use.kind, notices);
-    const Image other = fitted_image(scene, second, TexelKind::data, notices);
+    Image made_one, made_other;
+    const Image& one = fitted_image(scene, first, of_surface ? TexelKind::normal : use.kind, notices, made_one);
+    const Image& other = fitted_image(scene, second, TexelKind::data, notices, made_other);
     return upload(of_surface ? packed_surface_map(one, other) : color_with_occlusion(one, other), first, use,
                   second.image);
 }
@@ -139,7 +143,7 @@ void TextureStore::upload_level(const Image& image, int level, const TextureUse&
     bytes_ += grey.size();
 }
 
-std::uint32_t TextureStore::upload(Image image, const Texture& texture, const TextureUse& use, int packed_with) {
+std::uint32_t TextureStore::upload(const Image& image, const Texture& texture, const TextureUse& use, int packed_with) {
     Entry entry{texture, packed_with, use, gl::create<gl::Kind::texture>(gl_)};
     gl_.ActiveTexture(GL_TEXTURE0);
     gl_.BindTexture(GL_TEXTURE_2D, entry.object.name());
@@ -149,14 +153,15 @@ std::uint32_t TextureStore::upload(Image image, const Texture& texture, const Te
     // Grey needs one channel, which shaders read as three. A core profile has no luminance, and nothing decodes it.
     const bool one_channel = !compresses && !use.decoded && !caps_.core_profile && channels_needed(image) == 1;
     // Made here and not by the driver: in linear light at every tier, with masks that keep their share.
-    std::vector<Image> levels;
-    if (texture.mipmaps) levels = mip_chain(std::move(image), use.kind, use.alpha_cutoff);
-    else levels.push_back(std::move(image));
-    const bool with_alpha = has_alpha(levels.front());
-    for (std::size_t level = 0; level < levels.size(); ++level) {
-        if (compresses) upload_compressed(levels[level], static_cast<int>(level), with_alpha, use.decoded);
-        else upload_level(levels[level], static_cast<int>(level), use, one_channel);
-    }
+    const bool with_alpha = has_alpha(image);
+    int level = 0;
+    const auto upload_next = [&](const Image& next) {
+        if (compresses) upload_compressed(next, level, with_alpha, use.decoded);
+        else upload_level(next, level, use, one_channel);
+        ++level;
+    };
+    if (texture.mipmaps) for_each_level(image, use.kind, use.alpha_cutoff, upload_next);
+    else upload_next(image);
     set_sampling(gl_, texture);
     entries_.push_back(std::move(entry));
     return entries_.back().object.name();

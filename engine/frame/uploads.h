@@ -81,8 +81,8 @@ public:
     }
     std::uint32_t get(const Scene& scene, const Texture& texture, const TextureUse& use,
                       std::vector<std::string>& notices);
-    /// Two textures in one, sampled as the first: packed_surface_map() of normals and metallic-roughness where `use` is of
-    /// kind packed_surface, color_with_occlusion() where it is color.
+    /// Two textures in one, sampled as the first: packed_surface_map() of normals and metallic-roughness where `use` is
+    /// of kind packed_surface, color_with_occlusion() where it is color.
     std::uint32_t get_packed(const Scene& scene, const Texture& first, const Texture& second, const TextureUse& use,
                              std::vector<std::string>& notices);
     [[nodiscard]] std::size_t bytes() const { return bytes_; }  ///< mip levels included
@@ -101,9 +101,9 @@ private:
         std::size_t bytes_plain = 0, bytes = 0;
         double worst_rms_codes = 0.0, worst_codes = 0.0;
     };
-    [[nodiscard]] Image fitted_image(const Scene& scene, const Texture& texture, TexelKind kind,
-                                     std::vector<std::string>& notices) const;
-    std::uint32_t upload(Image image, const Texture& texture, const TextureUse& use, int packed_with);
+    [[nodiscard]] const Image& fitted_image(const Scene& scene, const Texture& texture, TexelKind kind,
+                                            std::vector<std::string>& notices, Image& made) const;
+    std::uint32_t upload(const Image& image, const Texture& texture, const TextureUse& use, int packed_with);
     void upload_level(const Image& image, int level, const TextureUse& use, bool one_channel);
     void upload_compressed(const Image& image, int level, bool with_alpha, bool decoded);
     gl::EntryPoints& gl_;

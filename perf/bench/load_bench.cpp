@@ -1,9 +1,10 @@
-// halfframe_load_bench: what loading a glTF file costs beside decoding its images and reading its buffers, and how time
-// and memory grow with size. Prints medians and ratios, judges nothing, is no test.
+// halfframe_load_bench: what loading a glTF file costs beside decoding its images and reading its buffers, what
+// bringing it to the device costs, and how time and memory grow with size. Prints medians and ratios, judges nothing,
+// is no test.
 //
-// Files are made by the exporter in a folder of its own, so they are in the page cache. Loads and bare reads take turns.
-// Times are those of the process, whatever else the machine does. Memory is what the process held at most above what it
-// held before, in a child that loads once.
+// Files are made by the exporter in a folder of its own, so they are in the page cache. Loads and bare reads take
+// turns. Times are those of the process, whatever else the machine does. Memory is what the process held at most above
+// what it held before, in a child that loads once.
 #include <malloc.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -25,7 +26,10 @@
 #include <nlohmann/json.hpp>
 
 #include "content/content.h"
+#include "engine/frame/frame_plan.h"
+#include "engine/frame/renderer.h"
 #include "perf/report/text_table.h"
+#include "platform/context.h"
 
 namespace halfframe::bench {
 namespace {
@@ -97,7 +101,7 @@ double peak_mib(const fs::path& file) {
     if (pipe(ends) != 0) return std::nan("");
     const pid_t child = fork();
     if (child == 0) {
-        malloc_trim(0);  // what the parent has freed is not there to be used again
+        malloc_trim(0);                                 // what the parent has freed is not there to be used again
         std::ofstream("/proc/self/clear_refs") << "5";  // the high-water mark begins anew
         const long before = status_kib("VmRSS:");
         const Scene scene = content::load_gltf(file);
@@ -187,8 +191,8 @@ std::string with_compressed_images(const std::string& glb, const Scene& scene, c
     std::string binary;
     for (std::size_t i = 0; i < document["bufferViews"].size(); ++i) {
         auto& view = document["bufferViews"][i];
-        const std::string bytes = glb.substr(start + view["byteOffset"].get<std::size_t>(),
-                                             view["byteLength"].get<std::size_t>());
+        const std::string bytes =
+            glb.substr(start + view["byteOffset"].get<std::size_t>(), view["byteLength"].get<std::size_t>());
         view["byteOffset"] = binary.size();
         if (std::ranges::find(views, i) != views.end()) view["byteLength"] = 4;
         binary += std::ranges::find(views, i) != views.end() ? std::string(4, '\0') : bytes;
@@ -213,6 +217,39 @@ Scene of_nodes(int count) {
     return scene;
 }
 
+/// As many meshes, surfaces and materials, each its own; in a field, so that none hides another.
+Scene of_meshes(int count) {
+    Scene scene;
+    scene.name = "meshes";
+    const int side = static_cast<int>(std::ceil(std::sqrt(count)));
+    for (int i = 0; i < count; ++i) {
+        const glm::vec3 at(static_cast<float>(i % side), 0.0f, static_cast<float>(i / side));
+        Mesh mesh{.name = fmt::format("triangle {}", i),
+                  .positions = {at, at + glm::vec3(0.0f, 0.0f, 0.7f), at + glm::vec3(0.7f, 0.0f, 0.0f)}};
+        mesh.normals.assign(3, glm::vec3(0.0f, 1.0f, 0.0f));
+        scene.meshes.push_back(std::move(mesh));
+        Material material;
+        material.name = fmt::format("material {}", i);
+        material.roughness = 0.2f + 0.7f * static_cast<float>(i) / static_cast<float>(count);
+        scene.materials.push_back(material);
+        scene.surfaces.push_back({.name = fmt::format("surface {}", i), .mesh = i, .material = i});
+    }
+    return scene;
+}
+
+/// Plan, upload, programs: all between a loaded scene and its first frame.
+double prepare_ms(Scene scene) {
+    const platform::Context context = platform::Context::create({});
+    gl::EntryPoints gl(context.loader());
+    const gl::Caps caps = gl::read_caps(gl);
+    content::add_studio_rig(scene);
+    const View view = view_of(camera_framing(world_box(scene), 1.0f), 64, 64);
+    Renderer renderer(gl, caps);
+    const double start = process_ms();
+    renderer.prepare(scene, plan_frame(scene, view, Wishes{}, caps, all_effects()));
+    return process_ms() - start;
+}
+
 void add_row(perf::TextTable& table, const fs::path& folder, const std::string& name, const Scene& scene, int rounds) {
     const fs::path file = folder / "file.glb";
     const std::string bytes = with_compressed_images(content::gltf_binary(scene), scene, folder);
@@ -229,13 +266,15 @@ void add_row(perf::TextTable& table, const fs::path& folder, const std::string& 
         kept += read_bare(file);
         bare_ms.push_back(process_ms() - start);
     }
+    const double prepare = prepare_ms(content::load_gltf(file));
     const double load = median(load_ms), bare = median(bare_ms);
     for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
         mib += static_cast<double>(entry.file_size()) / 1048576.0;
         fs::remove(entry.path());
     }
     table.add_row({kept > 0 ? name : name + " (nothing)", fmt::format("{:.1f}", mib), fmt::format("{:.1f}", load),
-                   fmt::format("{:.1f}", bare), fmt::format("{:.2f}", load / bare), fmt::format("{:.0f}", memory)});
+                   fmt::format("{:.1f}", bare), fmt::format("{:.2f}", load / bare), fmt::format("{:.0f}", memory),
+                   fmt::format("{:.0f}", prepare)});
 }
 
 void run(int rounds, bool small) {
@@ -247,7 +286,8 @@ void run(int rounds, bool small) {
                            {"load ms", Align::right},
                            {"bare ms", Align::right},
                            {"ratio", Align::right},
-                           {"peak MiB", Align::right}});
+                           {"peak MiB", Align::right},
+                           {"prepare ms", Align::right}});
     const int less = small ? 8 : 1;
     for (const int side : {512, 1024, 2048}) {
         const int here = side / less;
@@ -257,16 +297,20 @@ void run(int rounds, bool small) {
         const int here = side / less;
         add_row(table, folder, fmt::format("{} vertices", here * here), of_vertices(here), rounds);
     }
-    for (const int count : {1000, 10000, 50000})
+    for (const int count : {1000, 10000, 50000, 120000})
         add_row(table, folder, fmt::format("{} nodes", count / less), of_nodes(count / less), rounds);
+    for (const int count : {1000, 10000, 50000})
+        add_row(table, folder, fmt::format("{} meshes and materials", count / less), of_meshes(count / less), rounds);
     if (!small) {
         Scene street = content::open_scene("street");
         street.environment.reset();  // made anew at every load: 32 texels a side, as long whatever the file
         add_row(table, folder, "the built-in street, without surroundings", street, rounds);
     }
     fs::remove_all(folder);
-    fmt::print("medians of {} loads; bare: the file read, its JSON parsed, its images decoded, its buffers copied\n\n{}\n",
-               rounds, table.text());
+    fmt::print(
+        "medians of {} loads; bare: the file read, its JSON parsed, its images decoded, its buffers copied; "
+        "prepare: once, until the first frame\n\n{}\n",
+        rounds, table.text());
 }
 
 }  // namespace

@@ -71,7 +71,7 @@ TEST_F(StreetPictures, AreBrightInPlacesAndBlueGreyInAll) {
         for (const double hue : one.hues) std::printf(" %.0f", 100.0 * hue);
         std::printf("\n");
         // Each view has lights to look at, and night round them.
-        EXPECT_GT(one.bright, 0.04) << camera.name;  // 5 to 10 % are meant; 4.8 to 8.1 % at this seed
+        EXPECT_GT(one.bright, 0.05) << camera.name;  // 5 to 10 % are meant; 5.3 to 7.9 % at this seed
         EXPECT_LT(one.bright, 0.10) << camera.name;
         EXPECT_LT(one.dark, 0.25) << camera.name << ": black is no colour of this city";
         EXPECT_LT(one.saturation, 0.50) << camera.name;

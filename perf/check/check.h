@@ -56,6 +56,7 @@ struct StorageFigures {
     std::size_t vertex_bytes_before = 0;  ///< 32-bit floats
     std::size_t vertex_bytes_after = 0;
     std::size_t full_positions = 0;  ///< meshes that keep 32-bit positions
+    std::string why_full_positions;  ///< of the worst of them; empty: their vertices move
     Worst positions_mm;              ///< in the world
     Worst normals_degrees;
     Worst tangents_degrees;
@@ -83,7 +84,7 @@ struct Request {
     std::filesystem::path file;  ///< empty: the scene is built in
     Thresholds thresholds;
     std::string device = "native";
-    std::optional<int> largest_texture;          ///< that the device takes [texels]; none: not known
+    std::optional<int> largest_texture;             ///< that the device takes [texels]; none: not known
     std::optional<std::size_t> most_texture_bytes;  ///< of all textures together; none: no limit
 };
 

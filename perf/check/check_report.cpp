@@ -68,7 +68,11 @@ std::string storage_table(const StorageFigures& figures) {
     }
     std::string text = table.text() + "(vertices: 32-bit floats, then 16 and 8 bits; textures: 8 bits a channel, then "
                                       "DXT where a device has it; mip levels included)\n";
-    if (figures.full_positions > 0) text += fmt::format("meshes that keep 32-bit positions: {}\n", figures.full_positions);
+    if (figures.full_positions > 0) {
+        text += fmt::format("meshes that keep 32-bit positions: {}; {}\n", figures.full_positions,
+                            figures.why_full_positions.empty() ? "their vertices move against each other"
+                                                               : figures.why_full_positions);
+    }
     if (figures.smaller_images > 0)
         text += fmt::format("images that this device takes only smaller: {}\n", figures.smaller_images);
     return text;

@@ -16,6 +16,9 @@ void keep_worst(Worst& worst, double error, const std::string& where) {
 void add_vertices(const Scene& scene, StorageFigures& figures) {
     std::vector<std::string> notices;
     const std::vector<MeshStorage> planned = plan_vertex_storage(scene, VertexPrecision::half, notices);
+    for (const std::string& sentence : notices) {
+        if (sentence.find("keeps 32-bit positions") != std::string::npos) figures.why_full_positions = sentence;
+    }
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
         const Mesh& mesh = scene.meshes[i];
         const StorageError error = storage_error(mesh, planned[i]);
@@ -52,7 +55,8 @@ void add_textures(const Scene& scene, const Request& request, StorageFigures& fi
         ++figures.color_images;
         std::vector<Image> levels = mip_chain(image, TexelKind::color, std::nullopt);
         for (const Image& level : levels) figures.texture_bytes_before += level.rgba.size();
-        std::size_t first = std::min<std::size_t>(static_cast<std::size_t>(std::max(dropped[at], 0)), levels.size() - 1);
+        std::size_t first =
+            std::min<std::size_t>(static_cast<std::size_t>(std::max(dropped[at], 0)), levels.size() - 1);
         while (request.largest_texture && first + 1 < levels.size() &&
                std::max(levels[first].width, levels[first].height) > *request.largest_texture) {
             ++first;

@@ -69,6 +69,18 @@ TEST(Storage, is_what_the_engine_stores_with_its_worst_error) {
     EXPECT_EQ(json["storage"]["color_textures"]["worst_codes"]["where"], "noise");
 }
 
+TEST(Storage, says_why_positions_stay_as_they_are) {
+    Scene scene = content::open_scene("test_room");
+    for (Surface& surface : scene.surfaces) {  // twenty times as large: steps of 16 bits are 2 mm long
+        for (int axis = 0; axis < 3; ++axis) surface.world_from_local[axis] *= 20.0f;
+    }
+    const Report report = check_scene(scene, {.thresholds = thresholds()});
+    EXPECT_GT(report.storage.full_positions, 0u);
+    const std::string text = check_text(report);
+    EXPECT_NE(text.find("would err by up to"), std::string::npos) << text;
+    EXPECT_NE(text.find("limit 0.5 mm"), std::string::npos) << text;
+}
+
 TEST(Places, are_json_pointers_of_the_file) {
     const TemporaryFolder folder;
     const Report report = report_of(folder.write("dark.gltf", dark_document().dump()));

@@ -55,7 +55,7 @@ TEST(DrawBench, PrintsARatioForEveryCase) {
 TEST(LoadBench, PrintsARatioAndAPeakForEverySize) {
     const ChildResult result = run_child(HALFFRAME_BINARY_DIR "/halfframe_load_bench", {"--rounds", "1", "--small"}, {});
     ASSERT_EQ(result.code, 0) << result.err;
-    for (const char* word : {"8 images of 256 x 256", "16384 vertices", "6250 nodes", "bare ms", "ratio", "peak MiB"}) {
+    for (const char* word : {"8 images of 256 x 256", "16384 vertices", "6250 nodes", "6250 meshes", "bare ms", "ratio", "peak MiB", "prepare ms"}) {
         EXPECT_NE(result.out.find(word), std::string::npos) << word << "\n" << result.out;
     }
     EXPECT_EQ(result.out.find("nan"), std::string::npos) << result.out;

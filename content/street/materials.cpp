@@ -89,8 +89,7 @@ void add_walls_and_ground(Builder& builder, Materials& of, std::uint32_t seed) {
     of.panels = builder.add_material(wall(textured(builder, "panels", panel_texture(mixed(seed, 4)))),
                                      {.side_m = kPanelSide_m, .wall = true});
     of.zinc = builder.add_material(textured(builder, "zinc", zinc_texture(mixed(seed, 5))), {kZincSide_m});
-    of.wood = builder.add_material(rained_on(textured(builder, "boards", wood_texture(mixed(seed, 6)))),
-                                   {kWoodSide_m});
+    of.wood = builder.add_material(rained_on(textured(builder, "boards", wood_texture(mixed(seed, 6)))), {kWoodSide_m});
     of.asphalt = builder.add_material(ground(textured(builder, "asphalt", asphalt_texture(mixed(seed, 7)))),
                                       {.side_m = kAsphaltSide_m, .colors = true});
     of.cobbles = builder.add_material(ground(textured(builder, "cobbles", cobble_texture(mixed(seed, 8)))),
@@ -148,13 +147,15 @@ void add_things(Builder& builder, Materials& of) {
 }
 
 void add_lights_and_air(Builder& builder, Materials& of, std::uint32_t seed) {
-    Material signs = shining("signs across", glm::vec3(7.0f));
+    // Boards are dark where they do not shine, and not black: sRGB 36, as halfframe check asks of all that lamps reach.
+    constexpr glm::vec3 kDark(0.0176f);
+    Material signs = content::shining("signs across", glm::vec3(7.0f), kDark);
     signs.emissive_texture.image = builder.add_image(signs_across_picture());
     of.signs_across = builder.add_material(signs, {.unlit = true});
     signs.name = "signs down";
     signs.emissive_texture.image = builder.add_image(signs_down_picture());
     of.signs_down = builder.add_material(signs, {.unlit = true});
-    Material skyline = shining("skyline", glm::vec3(0.55f));
+    Material skyline = content::shining("skyline", glm::vec3(0.55f), kDark);
     skyline.emissive_texture.image = builder.add_image(skyline_picture(mixed(seed, 12)));
     of.skyline = builder.add_material(skyline, {.side_m = 26.0f, .unlit = true});
     of.lamp_warm = builder.add_material(shining("warm lamp", {7.0f, 4.6f, 2.5f}), {.unlit = true});

@@ -234,5 +234,12 @@ TEST(Charts, keep_every_rule_but_the_ends_of_smoothness) {
     EXPECT_EQ(report.count(Level::error), 0u);
 }
 
+TEST(Street, has_no_errors_and_no_warnings) {
+    const Report report = check_of(content::open_scene("street"));
+    EXPECT_GE(report.materials.size(), 40u);
+    for (const Finding& finding : report.findings)
+        EXPECT_EQ(finding.level, Level::note) << rule(finding.rule).name << " " << finding.thing << " " << finding.words;
+}
+
 }  // namespace
 }  // namespace halfframe::check

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "perf/process/child_process.h"
+#include "tests/harness/temporary_folder.h"
 
 namespace halfframe::harness {
 namespace {
@@ -43,8 +44,8 @@ TEST(AccuracyCommand, TheTableHasARowForEachFunction) {
 }
 
 TEST(AccuracyCommand, ModelsFollowTheFunctionsAndCanBeDrawn) {
-    const std::string maps = testing::TempDir() + "halfframe_accuracy_maps.png";
-    std::filesystem::remove(maps);
+    const harness::TemporaryFolder folder;
+    const std::string maps = folder / "maps.png";
     const process::ChildResult result = accuracy({"surface", "--json", "--maps", maps});
     ASSERT_EQ(result.exit_code, 0) << result.story();
     const auto report = nlohmann::json::parse(result.output);

@@ -4,13 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "perf/process/child_process.h"
+#include "tests/harness/temporary_folder.h"
 
 namespace halfframe::cost {
 
@@ -28,10 +28,10 @@ inline Answer halfframe(std::vector<std::string> arguments, const Environment& e
     return {result.exit_code, std::move(result.output), std::move(result.errors)};
 }
 
+/// A file in a folder of this process's own: tests run beside each other.
 inline std::string temporary(const std::string& name, const std::string& text) {
-    const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / name;
-    std::ofstream(file) << text;
-    return file.string();
+    static const harness::TemporaryFolder folder;
+    return folder.write(name, text).string();
 }
 
 inline void expect_in(const std::string& text, const std::string& part) {

@@ -2,13 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 
 #include <nlohmann/json.hpp>
 
 #include "content/data_files.h"
 #include "engine/error.h"
 #include "perf/cost/profile.h"
+#include "tests/harness/temporary_folder.h"
 
 namespace halfframe::cost {
 namespace {
@@ -21,8 +21,8 @@ nlohmann::json ps3() {
 }
 
 std::string complaint(const nlohmann::json& profile) {
-    const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "halfframe_profile_test.json";
-    std::ofstream(file) << profile.dump();
+    const harness::TemporaryFolder folder;
+    const std::filesystem::path file = folder.write("profile.json", profile.dump());
     try {
         (void)load_profile(file.string());
     } catch (const Error& error) {

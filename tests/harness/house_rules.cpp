@@ -288,6 +288,24 @@ Violations first_line_violations(const std::vector<SourceFile>& files) {
     return violations;
 }
 
+Violations shared_folder_violations(const std::vector<SourceFile>& files) {
+    Violations violations;
+    for (const SourceFile& file : files) {
+        if (!is_cpp(file.path)) continue;
+        std::istringstream lines(file.text);
+        int number = 1;
+        for (std::string line; std::getline(lines, line); ++number) {
+            // Cut in two, so that this line does not find itself.
+            if (line.find("testing::Temp"
+                          "Dir") == std::string::npos)
+                continue;
+            violations.push_back(file.path + ":" + std::to_string(number) +
+                                 ": every test writes there; take a harness::TemporaryFolder");
+        }
+    }
+    return violations;
+}
+
 Violations word_violations(const std::vector<SourceFile>& files) {
     // Cut in two, so that this list does not find itself.
     static const std::array<std::string, 3> kReminders = {

@@ -36,6 +36,10 @@ using Violations = std::vector<std::string>;
 /// C++ files and shaders whose first line is not a comment that says what the file is.
 [[nodiscard]] Violations first_line_violations(const std::vector<SourceFile>& files);
 
+/// Tests that write into the folder that GoogleTest gives to all of them alike: they run beside each other, and those
+/// of another checkout too.
+[[nodiscard]] Violations shared_folder_violations(const std::vector<SourceFile>& files);
+
 /// Reminders to oneself, paths of one machine, and talk about how the project was made.
 [[nodiscard]] Violations word_violations(const std::vector<SourceFile>& files);
 

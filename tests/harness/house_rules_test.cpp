@@ -129,6 +129,13 @@ TEST(FirstLine, SaysWhatTheFileIs) {
     expect_none(first_line_violations({{"engine/a.h", "// What a thing is.\n#pragma once\n"}}));
 }
 
+TEST(Folders, TestsShareNone) {
+    expect_none(shared_folder_violations(repository()));
+    expect_one(
+        shared_folder_violations({{"tests/a_test.cpp", std::string("// A.\nauto f = testing::Temp") + "Dir();\n"}}),
+        "tests/a_test.cpp:2");
+}
+
 TEST(Words, TextSpeaksOfTheProjectAlone) { expect_none(word_violations(repository())); }
 
 TEST(Words, EachKindIsFound) {

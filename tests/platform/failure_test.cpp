@@ -49,7 +49,7 @@ protected:
 
 private:
     std::filesystem::path folder_ =
-        std::filesystem::path(testing::TempDir()) /
+        std::filesystem::temp_directory_path() /
         (std::string("halfframe_") + testing::UnitTest::GetInstance()->current_test_info()->name() +
          std::to_string(getpid()));
 };

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "perf/process/child_process.h"
+#include "tests/harness/temporary_folder.h"
 
 namespace halfframe::harness {
 namespace {
@@ -26,10 +27,15 @@ std::string in_one_line(const std::string& text) {
     return line;
 }
 
+/// A file in a folder of this process's own: tests run beside each other.
+std::string temporary(const std::string& name, const std::string& text) {
+    static const TemporaryFolder folder;
+    return folder.write(name, text).string();
+}
+
 std::string own_file() {
-    const std::string path = testing::TempDir() + "halfframe_own.glsl";
-    std::ofstream(path) << "// Mine.\n#include \"common/maths.glsl\"\nfloat mine(float x) { return x * x * 0.001; }\n";
-    return path;
+    return temporary("own.glsl",
+                     "// Mine.\n#include \"common/maths.glsl\"\nfloat mine(float x) { return x * x * 0.001; }\n");
 }
 
 TEST(StabilityCommand, AStrangersFunctionIsTried) {
@@ -46,8 +52,8 @@ TEST(StabilityCommand, AStrangersFunctionIsTried) {
 }
 
 TEST(StabilityCommand, JsonAndPageHoldTheSameFunction) {
-    const std::string page = testing::TempDir() + "halfframe_stability.html";
-    std::filesystem::remove(page);
+    const TemporaryFolder folder;
+    const std::string page = folder / "stability.html";
     const process::ChildResult result = stability({"tone_map", "--json", "--html", page});
     ASSERT_EQ(result.exit_code, 0) << result.story();
     const auto report = nlohmann::json::parse(result.output);
@@ -74,19 +80,19 @@ TEST(StabilityCommand, WhatContradictsItselfIsUsage) {
         EXPECT_TRUE(result.output.empty()) << result.output;
     }
     EXPECT_EQ(stability({own_file(), "--function", "mine", "--domain", "x 0..1"}).exit_code, 2);
-    EXPECT_EQ(stability({"tone_map", "--pictures", testing::TempDir()}).exit_code, 2);
+    const TemporaryFolder folder;
+    EXPECT_EQ(stability({"tone_map", "--pictures", folder.path().string()}).exit_code, 2);
     EXPECT_EQ(stability({"/nowhere/f.glsl"}).exit_code, 3);
-    const std::string broken = testing::TempDir() + "halfframe_broken.glsl";
-    std::ofstream(broken) << "//@domain x: 0..1\nfloat f(float x) { return x +; }\n";
+    const std::string broken = temporary("broken.glsl", "//@domain x: 0..1\nfloat f(float x) { return x +; }\n");
     EXPECT_EQ(stability({broken}).exit_code, 3);
 }
 
 TEST(StabilityCommand, OddDomainsAndFunctionsAreRefusedInWords) {
-    const std::string file = testing::TempDir() + "halfframe_odd.glsl";
-    std::ofstream(file) << "precision mediump float;\nfloat plain(float x) { return x; }\n"
-                           "float gone(float x) { if (x > 2.0) discard; return x; }\n"
-                           "float calls(float x) { return gone(x) * 2.0; }\n"
-                           "float forever(float x) { while (true) { x *= 1.5; } return x; }\n";
+    const std::string file = temporary("odd.glsl",
+                                       "precision mediump float;\nfloat plain(float x) { return x; }\n"
+                                       "float gone(float x) { if (x > 2.0) discard; return x; }\n"
+                                       "float calls(float x) { return gone(x) * 2.0; }\n"
+                                       "float forever(float x) { while (true) { x *= 1.5; } return x; }\n");
     struct Odd {
         const char* function;
         const char* domain;

@@ -1,6 +1,7 @@
 // START HERE: surface shades everything that has a mesh: direct light, constant ambient, emission.
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -16,7 +17,11 @@ extern const EffectCard kSurface;
 /// How many surfaces blend with what is behind them; the others hide it.
 [[nodiscard]] int count_blended(const Scene& scene);
 
-/// Fills `lights` with those that reach `box` (world, [m]), strongest first, at most `limit`; suns are not among them.
+/// What a light is, as something to sort by: the brightest first, then by place and direction.
+[[nodiscard]] std::array<float, 7> order_of(const Light& light);
+
+/// Fills `lights` with those that reach `box` (world, [m]), strongest first and equal ones in the order of order_of(),
+/// so that the order in a file moves nothing; at most `limit`; suns are not among them.
 /// `left_out` counts those that reach it and had no place. Allocates nothing where `lights` has room for limit + 1.
 void lights_reaching(const Scene& scene, const Box& box, std::size_t limit, std::vector<int>& lights, int& left_out);
 

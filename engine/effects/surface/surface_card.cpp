@@ -2,6 +2,7 @@
 #include "engine/effects/surface/surface.h"
 
 #include <algorithm>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -70,7 +71,26 @@ float strength_in(const Box& box, const Light& light) {
     return std::max(strongest_channel(light.color) / nearest_m2, 1e-30f);  // a dark lamp counts, and loses to all
 }
 
+/// The stronger first; of equal ones the choice is that of their places, and not of their order in a file.
+bool goes_before(const Box& box, const Scene& scene, int a, int b) {
+    const Light& one = scene.lights[static_cast<std::size_t>(a)];
+    const Light& other = scene.lights[static_cast<std::size_t>(b)];
+    const float strength = strength_in(box, one), other_strength = strength_in(box, other);
+    if (strength != other_strength) return strength > other_strength;
+    return std::tuple(order_of(one), a) < std::tuple(order_of(other), b);
+}
+
 }  // namespace
+
+std::array<float, 7> order_of(const Light& light) {
+    return {-(light.color.r + light.color.g + light.color.b),
+            light.position.x,
+            light.position.y,
+            light.position.z,
+            light.direction.x,
+            light.direction.y,
+            light.direction.z};
+}
 
 std::span<const ShaderVariant> surface_shaders(Tier tier) {
     if (tier == Tier::low) return kShadersAtLow;
@@ -87,12 +107,11 @@ void lights_reaching(const Scene& scene, const Box& box, std::size_t limit, std:
     lights.clear();
     left_out = 0;
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-        const float strength = strength_in(box, scene.lights[i]);
-        if (!(strength > 0.0f)) continue;
+        if (!(strength_in(box, scene.lights[i]) > 0.0f)) continue;
+        const int light = static_cast<int>(i);
         auto at = lights.end();
-        while (at != lights.begin() && strength_in(box, scene.lights[static_cast<std::size_t>(*(at - 1))]) < strength)
-            --at;
-        lights.insert(at, static_cast<int>(i));
+        while (at != lights.begin() && goes_before(box, scene, light, *(at - 1))) --at;
+        lights.insert(at, light);
         if (lights.size() <= limit) continue;
         lights.pop_back();
         ++left_out;

@@ -88,12 +88,6 @@ void sort_by_key(std::vector<Order>& order, std::vector<Order>& spare) {
     }
 }
 
-/// What a light is, as something to sort by: the brightest first, then by place.
-std::array<float, 4> order_of(const Scene& scene, int light) {
-    const Light& of = scene.lights[static_cast<std::size_t>(light)];
-    return {-(of.color.r + of.color.g + of.color.b), of.position.x, of.position.y, of.position.z};
-}
-
 /// How the shader reads one of a material's textures.
 TextureUse use_of(const Material& material, const SurfaceTexture& texture, bool decoded) {
     if (texture.define == "BASE_COLOR_MAP") return base_color_use(material, decoded);
@@ -233,7 +227,9 @@ void SurfaceWork::add_draw(Renderer& renderer, int index) {
     }
     // Objects that the same lights reach share them, whichever is nearer; and the order in the file moves no rounding.
     std::ranges::sort(lights, [&](int a, int b) {
-        return std::tuple(order_of(renderer.scene(), a), a) < std::tuple(order_of(renderer.scene(), b), b);
+        const std::vector<Light>& all = renderer.scene().lights;
+        return std::tuple(order_of(all[static_cast<std::size_t>(a)]), a) <
+               std::tuple(order_of(all[static_cast<std::size_t>(b)]), b);
     });
     const bool low = renderer.tier_of(card_.name) == Tier::low;
     std::vector<std::string_view> inserted;  // defines of what other effects insert

@@ -228,6 +228,25 @@ TEST_F(Surface, LightsReachOnlyTheirRangeStrongestFirst) {
     for (const int light : lights) EXPECT_LT(light, 12) << "neither the one out of range nor the sun";
 }
 
+TEST(SurfaceLights, OfEquallyStrongOnesTheOrderInTheFileChoosesNone) {
+    Scene scene;  // the box holds all twelve, so that all are as near as can be
+    for (int i = 0; i < 12; ++i)
+        scene.lights.push_back({.kind = LightKind::point, .position = {0.07f * static_cast<float>(i), 0.0f, 0.0f}});
+    const Box box{.low = glm::vec3(-1.0f), .high = glm::vec3(1.0f)};
+    const auto chosen = [&] {
+        std::vector<int> lights;
+        int left_out = 0;
+        lights_reaching(scene, box, 8, lights, left_out);
+        std::vector<float> places;
+        for (const int light : lights) places.push_back(scene.lights[static_cast<std::size_t>(light)].position.x);
+        return places;
+    };
+    const std::vector<float> places = chosen();
+    EXPECT_EQ(places.size(), 8u);
+    std::ranges::reverse(scene.lights);
+    EXPECT_EQ(chosen(), places);
+}
+
 TEST_F(Surface, SaysWhichLightsAreLeftOut) {
     Scene scene = wide_square();
     for (int i = 0; i < 10; ++i)

@@ -108,12 +108,17 @@ Storage chosen_storage(const Wishes& wishes, Tier tier, const gl::Caps& caps) {
     throw Error(Fault::context, fmt::format("{} renders no colour format at all", caps.device));
 }
 
-/// What in a plan that stores light needs it stored, as a sentence, or nothing: then only the pass that maps light
-/// reads it, and whatever draws may map its own.
-std::optional<std::string> need_of_light(const FramePlan& plan, const Wishes& wishes) {
+/// Why light is stored whatever the plan, as a sentence, or nothing.
+std::optional<std::string> wish_for_light(const Wishes& wishes) {
     if (wishes.reads_light) return "it is read back as light";
     // Where shaders map their own light, what guards the curve makes 0 of a NaN before anything stores it.
     if (wishes.census) return "the census counts what light holds";
+    return std::nullopt;
+}
+
+/// What in a plan that stores light needs it stored, as a sentence, or nothing: then only the pass that maps light
+/// reads it, and whatever draws may map its own.
+std::optional<std::string> need_of_light(const FramePlan& plan) {
     const int light = plan.target_index("scene_color");
     for (const Pass& pass : plan.passes) {
         if (pass.resolves && pass.color == light) return fmt::format("{} averages samples of light", pass.effect);
@@ -340,7 +345,8 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Wishes& wishes,
     if (!wishes.storage && tier == Tier::console) {
         // What reads light shows in the plan that stores it.
         const PixelFormat light = holds_display_values(storage.format) ? kLadder.front() : storage.format;
-        const auto need = need_of_light(planned({light, ""}, scene, view, wishes, caps, cards), wishes);
+        std::optional<std::string> need = wish_for_light(wishes);
+        if (!need) need = need_of_light(planned({light, ""}, scene, view, wishes, caps, cards));
         if (!need)
             return planned({kLadder.back(), "no pass reads, blends or averages light"}, scene, view, wishes, caps,
                            cards);

@@ -27,8 +27,8 @@ struct Wishes {
     bool census = false;  ///< every colour target RGBA32F, to count NaN and inf, in light where the tier can store it
     VertexPrecision vertices = VertexPrecision::half;  ///< bits of positions, directions, UVs and colours
     std::optional<TextureCompression> textures;        ///< empty: what the device profile says, else none
-    bool fixed_view =
-        false;  ///< only the view that the plan is made for is drawn: what it does not see may be left out
+    /// Only the view that the plan is made for is drawn: what it does not see may be left out.
+    bool fixed_view = false;
 };
 
 /// A texture that passes write and read.

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "content/content.h"
+#include "engine/error.h"
 #include "engine/frame/renderer.h"
 #include "platform/context.h"
 

@@ -61,9 +61,9 @@ CostTable cost_table(const std::string& name_or_path) {
         constexpr std::array kFirst{"ps3", "x360", "es2_class"};
         for (const char* device : kFirst)
             if (each.has(device)) table.prices.push_back(price_from(each.at(device), device, of));
-        for (const auto& [device, value] : each.value().items())
-            if (std::find(kFirst.begin(), kFirst.end(), device) == kFirst.end())
-                table.prices.push_back(price_from(each.at(device), device, of));
+        for (const JsonMember& member : each.value().members())
+            if (std::find(kFirst.begin(), kFirst.end(), *member.key) == kFirst.end())
+                table.prices.push_back(price_from(each.at(*member.key), *member.key, of));
     }
     return table;
 }

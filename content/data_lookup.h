@@ -12,7 +12,7 @@ namespace halfframe::content {
 /// A parsed data file and where it came from.
 struct DataDocument {
     JsonSource source;
-    nlohmann::json json;
+    JsonDocument json;
 };
 
 /// The built-in names in a folder of content/: "devices" gives es2-mali400-class, es2-minimum, es3-minimum.

@@ -18,7 +18,8 @@ constexpr double kLargestFloat = 3.4e38;
 constexpr std::uint64_t kLargestOffset = 1ull << 53;
 
 std::uint64_t whole_or(const JsonPlace& owner, std::string_view key, std::uint64_t otherwise) {
-    return owner.has(key) ? owner.at(key).whole(0, kLargestOffset) : otherwise;
+    const auto place = owner.find(key);
+    return place ? place->whole(0, kLargestOffset) : otherwise;
 }
 
 void check_buffers(const JsonPlace& root) {
@@ -150,9 +151,7 @@ void check_samplers_and_textures(const JsonPlace& root) {
 }
 
 void check_number(const JsonPlace& owner, std::string_view key, double lowest, double highest) {
-    if (owner.has(key)) {
-        (void)owner.at(key).number(lowest, highest);
-    }
+    if (const auto number = owner.find(key)) (void)number->number(lowest, highest);
 }
 
 void check_material(const JsonPlace& root, const JsonPlace& material) {
@@ -211,20 +210,13 @@ void check_camera(const JsonPlace& camera) {
 }  // namespace
 
 void check_texture_use(const JsonPlace& root, const JsonPlace& owner, std::string_view key) {
-    if (owner.has(key)) {
-        const JsonPlace use = owner.at(key);
-        (void)use.at("index");
-        (void)index_in(use, "index", count_of(root, "textures"), "textures");
-        if (use.has("texCoord")) {
-            (void)use.at("texCoord").whole(0, 15);
-        }
-        if (use.has("scale")) {
-            (void)use.at("scale").number(-kLargestFloat, kLargestFloat);
-        }
-        if (use.has("strength")) {
-            (void)use.at("strength").number(0.0, 1.0);
-        }
-        check_texture_transform(use);
+    if (const auto use = owner.find(key)) {
+        (void)use->at("index");
+        (void)index_in(*use, "index", count_of(root, "textures"), "textures");
+        if (const auto set = use->find("texCoord")) (void)set->whole(0, 15);
+        check_number(*use, "scale", -kLargestFloat, kLargestFloat);
+        check_number(*use, "strength", 0.0, 1.0);
+        check_texture_transform(*use);
     }
 }
 

@@ -38,7 +38,8 @@ void check_target(const GltfDocument& document, const JsonPlace& target, std::ui
     target.expect_object();
     const JsonPlace root = document.root();
     const bool quantized = document.uses_extension("KHR_mesh_quantization");
-    for (const auto& [name, child] : target.value().items()) {
+    for (const JsonMember& member : target.value().members()) {
+        const std::string& name = *member.key;
         const Format format = format_of(root, accessor_in(root, target, name));
         if (name == "POSITION" || name == "NORMAL" || name == "TANGENT") {
             const bool small = quantized && (name == "POSITION" ? format.component >= 5120 && format.component <= 5123

@@ -20,8 +20,8 @@ std::size_t needed_index(const JsonPlace& owner, std::string_view key, std::size
 /// Every value of an object of accessor indices (attributes, a morph target).
 void check_accessor_map(const JsonPlace& root, const JsonPlace& map) {
     map.expect_object();
-    for (const auto& [name, child] : map.value().items()) {
-        (void)needed_index(map, name, count_of(root, "accessors"), "accessors");
+    for (const JsonMember& member : map.value().members()) {
+        (void)needed_index(map, *member.key, count_of(root, "accessors"), "accessors");
     }
 }
 
@@ -71,7 +71,8 @@ void check_attributes(const GltfDocument& document, const JsonPlace& attributes)
     check_accessor_map(root, attributes);
     const bool quantized = document.uses_extension("KHR_mesh_quantization");
     std::uint64_t vertices = 0;
-    for (const auto& [name, child] : attributes.value().items()) {
+    for (const JsonMember& member : attributes.value().members()) {
+        const std::string& name = *member.key;
         const JsonPlace place = attributes.at(name);
         const JsonPlace accessor = root.at("accessors").at(static_cast<std::size_t>(place.whole()));
         const Format format = format_of(accessor);
@@ -127,16 +128,15 @@ void check_meshes(const GltfDocument& document) {
 }
 
 void check_index_list(const JsonPlace& owner, std::string_view key, std::size_t count, std::string_view what) {
-    if (owner.has(key)) {
-        const JsonPlace list = owner.at(key);
+    if (const auto list = owner.find(key)) {
         std::unordered_set<std::uint64_t> seen;
-        for (std::size_t i = 0; i < list.size(); ++i) {
-            const std::uint64_t index = list.at(i).whole();
+        for (std::size_t i = 0; i < list->size(); ++i) {
+            const std::uint64_t index = list->at(i).whole();
             if (index >= count) {
-                list.at(i).fail(fmt::format("points at number {} of {} {}", index, count, what));
+                list->at(i).fail(fmt::format("points at number {} of {} {}", index, count, what));
             }
             if (!seen.insert(index).second) {
-                list.at(i).fail(fmt::format("names number {} a second time", index));
+                list->at(i).fail(fmt::format("names number {} a second time", index));
             }
         }
     }
@@ -166,7 +166,7 @@ void check_skins_and_animations(const JsonPlace& root) {
 /// A node's matrix is a translation, a rotation and a scale (glTF 2.0, section 3.5.3): its last row is 0 0 0 1.
 void expect_affine(const JsonPlace& matrix) {
     for (std::size_t column = 0; column < 4; ++column) {
-        const double number = matrix.value()[4 * column + 3].get<double>();  // numbers, as was checked
+        const double number = matrix.value().elements()[4 * column + 3].number();  // numbers, as was checked
         // 1e-4: what exporters leave of products of rounded matrices.
         if (std::abs(number - (column == 3 ? 1.0 : 0.0)) > 1e-4) {
             matrix.fail(fmt::format("has {} in its last row, which must be 0 0 0 1", number));
@@ -184,24 +184,24 @@ void check_node(const JsonPlace& root, const JsonPlace& node) {
         std::size_t numbers;
     };
     for (const Part& part : {Part{"matrix", 16}, Part{"translation", 3}, Part{"rotation", 4}, Part{"scale", 3}}) {
-        if (node.has(part.key)) {
-            node.at(part.key).expect_numbers(part.numbers, -kLargestFloat, kLargestFloat);
-            if (part.numbers == 16) expect_affine(node.at("matrix"));
+        if (const auto place = node.find(part.key)) {
+            place->expect_numbers(part.numbers, -kLargestFloat, kLargestFloat);
+            if (part.numbers == 16) expect_affine(*place);
             if (part.numbers != 16 && node.has("matrix")) {
                 node.fail(fmt::format("has a matrix and a {} too", part.key));
             }
         }
     }
-    if (node.has("rotation")) {
+    if (const auto rotation = node.find("rotation")) {
         double squared = 0.0;
         for (std::size_t i = 0; i < 4; ++i) {
-            const double component = node.at("rotation").at(i).number(-1.0001, 1.0001);
+            const double component = rotation->at(i).number(-1.0001, 1.0001);
             squared += component * component;
         }
         // Half of a unit quaternion is still a clear direction; a zero one is none. Exporters round to 3 digits and
         // less.
         if (squared < 0.25) {
-            node.at("rotation").fail("is not a unit quaternion");
+            rotation->fail("is not a unit quaternion");
         }
     }
 }
@@ -210,8 +210,9 @@ void check_node(const JsonPlace& root, const JsonPlace& node) {
 std::vector<int> checked_parents(const JsonPlace& root) {
     std::vector<int> parent(count_of(root, "nodes"), -1);
     for_each_object(root, "nodes", [&](const JsonPlace& node, std::size_t index) {
-        for (std::size_t i = 0; i < count_of(node, "children"); ++i) {
-            const JsonPlace place = node.at("children").at(i);
+        const auto children = node.find("children");
+        for (std::size_t i = 0; children && i < children->size(); ++i) {
+            const JsonPlace place = children->at(i);
             int& of_child = parent[static_cast<std::size_t>(place.whole())];
             if (of_child >= 0) {
                 place.fail(fmt::format("node {} is already a child of node {}", place.whole(), of_child));

@@ -127,15 +127,15 @@ Version version_at(const JsonPlace& place) {
 
 /// glTF 1.0 keeps its things in objects by name, glTF 2.0 in arrays. Its `asset` was optional and its version a number
 /// at first.
-bool looks_like_version_1(const nlohmann::json& json) {
-    return (json.contains("meshes") && json["meshes"].is_object()) ||
-           (json.contains("nodes") && json["nodes"].is_object());
+bool looks_like_version_1(const JsonPlace& root) {
+    return (root.has("meshes") && root.at("meshes").value().is_object()) ||
+           (root.has("nodes") && root.at("nodes").value().is_object());
 }
 
 void check_version(GltfDocument& document) {
     const JsonPlace root = document.root();
     root.expect_object();
-    if (looks_like_version_1(document.json)) {
+    if (looks_like_version_1(root)) {
         is_version_1(document, "/meshes");
     }
     const JsonPlace asset = root.at("asset");
@@ -185,21 +185,26 @@ void check_extensions(GltfDocument& document) {
 }  // namespace
 
 bool GltfDocument::uses_extension(std::string_view name) const {
-    const auto used = json.find("extensionsUsed");
-    return used != json.end() && std::any_of(used->begin(), used->end(), [&](const nlohmann::json& each) {
-               return each.is_string() && each.get_ref<const std::string&>() == name;
+    const JsonValue* used = json.root().find("extensionsUsed");
+    return used != nullptr && used->is_array() && std::ranges::any_of(used->elements(), [&](const JsonValue& each) {
+               return each.is_text() && each.text() == name;
            });
+}
+
+std::string name_of(const JsonPlace& object) {
+    const JsonValue* name = object.value().find("name");
+    return name != nullptr && name->is_text() ? name->text() : std::string();
 }
 
 std::optional<std::size_t> index_in(const JsonPlace& owner, std::string_view key, std::size_t count,
                                     std::string_view what) {
-    if (!owner.has(key)) {
+    const std::optional<JsonPlace> place = owner.find(key);
+    if (!place) {
         return std::nullopt;
     }
-    const JsonPlace place = owner.at(key);
-    const std::uint64_t index = place.whole();
+    const std::uint64_t index = place->whole();
     if (index >= count) {
-        place.fail(fmt::format("points at number {} of {} {}", index, count, what));
+        place->fail(fmt::format("points at number {} of {} {}", index, count, what));
     }
     return static_cast<std::size_t>(index);
 }

@@ -14,7 +14,8 @@ namespace halfframe::content {
 // Caps. A file of a few bytes can ask for any amount of memory; these keep a load near 1 GiB at the very worst.
 /// Any file read [bytes]: twice the 256 MiB of a whole PS3, so nothing this renderer can draw is larger.
 inline constexpr std::uint64_t kMostFileBytes = 512ull << 20;
-/// JSON text [bytes]: room for embedded buffers; as values it would still fit in memory (16 bytes for each comma).
+/// JSON text [bytes]: room for embedded buffers; as values it still fits in memory (16 bytes for each comma, twice
+/// that for each member of an object).
 inline constexpr std::uint64_t kMostJsonBytes = 128ull << 20;
 /// All buffers together [bytes].
 inline constexpr std::uint64_t kMostBufferBytes = 512ull << 20;
@@ -34,9 +35,11 @@ inline constexpr std::uint64_t kMostImagePixels = 128ull << 20;
 struct GltfDocument {
     std::filesystem::path file;
     JsonSource source;
-    nlohmann::json json;
+    JsonDocument json;
     std::optional<std::string> binary_chunk;  ///< GLB only
     std::vector<std::string> notices;
+    std::optional<std::size_t> chosen_scene;    ///< in place of the default one
+    std::optional<std::size_t> chosen_variant;  ///< of the materials (KHR_materials_variants)
 
     [[nodiscard]] JsonPlace root() const { return {json, source}; }
     [[nodiscard]] bool uses_extension(std::string_view name) const;
@@ -56,8 +59,14 @@ void check_gltf_motion(const GltfDocument& document);
 /// The bytes of buffers and images, in the order of the document. An image that lies in a buffer view stays empty here.
 /// So does a buffer without data, which glTF allows; it is an error only when something is read from it.
 struct GltfResources {
-    std::vector<std::string> buffers;
+    /// A buffer view that was compressed, and the buffer that holds all of it and nothing else.
+    struct UnpackedView {
+        std::size_t view = 0;
+        std::size_t buffer = 0;
+    };
+    std::vector<std::string> buffers;  ///< of the document, then those of unpacked views
     std::vector<std::string> images;
+    std::vector<UnpackedView> unpacked_views;
 };
 /// Reads data URIs, files beside the asset and the GLB's binary chunk. A file must lie in the asset's folder or below,
 /// by name and after symbolic links are followed.
@@ -70,16 +79,19 @@ struct GltfResources {
 
 /// The array behind a root key, or nothing.
 [[nodiscard]] inline std::size_t count_of(const JsonPlace& root, std::string_view key) {
-    return root.has(key) ? root.at(key).size() : 0;
+    const std::optional<JsonPlace> array = root.find(key);
+    return array ? array->size() : 0;
 }
+
+/// The name of an object of the document; empty where it has none that is a string.
+[[nodiscard]] std::string name_of(const JsonPlace& object);
 
 /// Calls visit(element, index) for each element of the array `key`, when there is one; each must be an object.
 template <typename Visit>
 void for_each_object(const JsonPlace& owner, std::string_view key, Visit&& visit) {
-    if (owner.has(key)) {
-        const JsonPlace array = owner.at(key);
-        for (std::size_t i = 0; i < array.size(); ++i) {
-            const JsonPlace element = array.at(i);
+    if (const std::optional<JsonPlace> array = owner.find(key)) {
+        for (std::size_t i = 0; i < array->size(); ++i) {
+            const JsonPlace element = array->at(i);
             element.expect_object();
             visit(element, i);
         }

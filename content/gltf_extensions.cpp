@@ -23,15 +23,11 @@ constexpr std::array<std::string_view, 12> kSupported{
     "KHR_mesh_quantization",           "KHR_meshopt_compression", "KHR_texture_transform"};
 
 void check_number(const JsonPlace& owner, std::string_view key, double lowest, double highest) {
-    if (owner.has(key)) {
-        (void)owner.at(key).number(lowest, highest);
-    }
+    if (const auto number = owner.find(key)) (void)number->number(lowest, highest);
 }
 
 void check_numbers(const JsonPlace& owner, std::string_view key, std::size_t count, double lowest, double highest) {
-    if (owner.has(key)) {
-        owner.at(key).expect_numbers(count, lowest, highest);
-    }
+    if (const auto list = owner.find(key)) list->expect_numbers(count, lowest, highest);
 }
 
 void check_light(const JsonPlace& light) {
@@ -59,17 +55,17 @@ std::size_t count_in_extension(const JsonPlace& root, std::string_view name, std
     return found && found->has(key) ? found->at(key).size() : 0;
 }
 
-void check_lights(const JsonPlace& root) {
+void check_lights(const JsonPlace& root, const std::vector<JsonPlace>& nodes) {
     if (const auto lights = extension(root, "KHR_lights_punctual")) {
         for_each_object(*lights, "lights", [&](const JsonPlace& light, std::size_t) { check_light(light); });
     }
     const std::size_t count = count_in_extension(root, "KHR_lights_punctual", "lights");
-    for_each_object(root, "nodes", [&](const JsonPlace& node, std::size_t) {
+    for (const JsonPlace& node : nodes) {
         if (const auto use = extension(node, "KHR_lights_punctual")) {
             (void)use->at("light");
             (void)index_in(*use, "light", count, "lights");
         }
-    });
+    }
 }
 
 void check_variants(const JsonPlace& root) {
@@ -97,14 +93,15 @@ void check_variants(const JsonPlace& root) {
 }
 
 /// TRANSLATION and SCALE are vectors of float; ROTATION a quaternion of float or of normalized signed integers.
-void check_instancing(const JsonPlace& root) {
-    for_each_object(root, "nodes", [&](const JsonPlace& node, std::size_t) {
+void check_instancing(const JsonPlace& root, const std::vector<JsonPlace>& nodes) {
+    for (const JsonPlace& node : nodes) {
         const auto use = extension(node, "EXT_mesh_gpu_instancing");
-        if (!use) return;
+        if (!use) continue;
         const JsonPlace attributes = use->at("attributes");
         attributes.expect_object();
         std::uint64_t instances = 0;
-        for (const auto& [name, child] : attributes.value().items()) {
+        for (const JsonMember& member : attributes.value().members()) {
+            const std::string& name = *member.key;
             const JsonPlace place = attributes.at(name);
             const std::size_t index = *index_in(attributes, name, count_of(root, "accessors"), "accessors");
             const JsonPlace accessor = root.at("accessors").at(index);
@@ -125,7 +122,7 @@ void check_instancing(const JsonPlace& root) {
             }
             instances = count;
         }
-    });
+    }
 }
 
 /// The index that `wished` names: one of `names`, or a number.
@@ -150,10 +147,7 @@ std::size_t chosen(const GltfDocument& document, const std::string& wished, cons
 
 std::vector<std::string> names_in(const JsonPlace& owner, std::string_view key) {
     std::vector<std::string> names;
-    for_each_object(owner, key, [&](const JsonPlace& element, std::size_t) {
-        const bool named = element.has("name") && element.value()["name"].is_string();
-        names.push_back(named ? element.at("name").text() : std::string());
-    });
+    for_each_object(owner, key, [&](const JsonPlace& element, std::size_t) { names.push_back(name_of(element)); });
     return names;
 }
 
@@ -162,11 +156,9 @@ std::vector<std::string> names_in(const JsonPlace& owner, std::string_view key) 
 std::span<const std::string_view> supported_extensions() { return kSupported; }
 
 std::optional<JsonPlace> extension(const JsonPlace& owner, std::string_view name) {
-    if (!owner.has("extensions") || !owner.at("extensions").has(name)) {
-        return std::nullopt;
-    }
-    JsonPlace found = owner.at("extensions").at(name);
-    found.expect_object();
+    const std::optional<JsonPlace> extensions = owner.find("extensions");
+    std::optional<JsonPlace> found = extensions ? extensions->find(name) : std::nullopt;
+    if (found) found->expect_object();
     return found;
 }
 
@@ -211,37 +203,40 @@ void check_gltf_extensions(const GltfDocument& document) {
     const JsonPlace root = document.root();
     for_each_object(root, "materials",
                     [&](const JsonPlace& material, std::size_t) { check_material_extensions(root, material); });
-    check_lights(root);
+    std::vector<JsonPlace> nodes;  // few of many, as a rule
+    for_each_object(root, "nodes", [&](const JsonPlace& node, std::size_t) {
+        if (node.has("extensions")) nodes.push_back(node);
+    });
+    check_lights(root, nodes);
     check_variants(root);
-    check_instancing(root);
+    check_instancing(root, nodes);
     check_meshopt(root);
 }
 
 void apply_choices(GltfDocument& document, const LoadOptions& options) {
     if (!options.scene.empty()) {
-        document.json["scene"] =
+        document.chosen_scene =
             chosen(document, options.scene, names_in(document.root(), "scenes"), "--gltf-scene", "scene");
     }
-    if (options.variant.empty()) {
-        return;
+    if (!options.variant.empty()) {
+        const auto variants = extension(document.root(), "KHR_materials_variants");
+        document.chosen_variant =
+            chosen(document, options.variant, variants ? names_in(*variants, "variants") : std::vector<std::string>(),
+                   "--variant", "variant");
     }
-    const auto variants = extension(document.root(), "KHR_materials_variants");
-    const std::size_t variant =
-        chosen(document, options.variant, variants ? names_in(*variants, "variants") : std::vector<std::string>(),
-               "--variant", "variant");
-    if (!document.json.contains("meshes")) return;
-    for (nlohmann::json& mesh : document.json["meshes"]) {
-        for (nlohmann::json& primitive : mesh["primitives"]) {
-            const auto use = primitive.find("extensions");
-            if (use == primitive.end() || !use->contains("KHR_materials_variants")) continue;
-            const nlohmann::json mappings = (*use)["KHR_materials_variants"].value("mappings", nlohmann::json::array());
-            for (const nlohmann::json& mapping : mappings) {
-                for (const nlohmann::json& each : mapping["variants"]) {
-                    if (each.get<std::size_t>() == variant) primitive["material"] = mapping["material"];
-                }
+}
+
+std::optional<std::size_t> material_of_variant(const JsonPlace& primitive, std::size_t variant) {
+    std::optional<std::size_t> material;
+    if (const auto use = extension(primitive, "KHR_materials_variants")) {
+        for_each_object(*use, "mappings", [&](const JsonPlace& mapping, std::size_t) {
+            const JsonPlace variants = mapping.at("variants");
+            for (std::size_t i = 0; i < variants.size(); ++i) {
+                if (variants.at(i).whole() == variant) material = mapping.at("material").whole();
             }
-        }
+        });
     }
+    return material;
 }
 
 }  // namespace halfframe::content

@@ -28,13 +28,14 @@ void check_texture_use(const JsonPlace& root, const JsonPlace& owner, std::strin
 /// The compression of a buffer view (EXT_meshopt_compression, or its successor with the same streams).
 [[nodiscard]] std::optional<JsonPlace> meshopt_of(const JsonPlace& buffer_view);
 void check_meshopt(const JsonPlace& root);
-/// Puts what compressed buffer views hold into buffers of their own and points the views there. A damaged stream:
-/// Error(input).
-void decode_meshopt(GltfDocument& document, GltfResources& resources);
+/// Puts what compressed buffer views hold into buffers of their own. A damaged stream: Error(input).
+void decode_meshopt(const GltfDocument& document, GltfResources& resources);
 
-/// Makes the chosen scene the document's default one, and gives every primitive the material of the chosen variant
-/// (KHR_materials_variants). A choice that the file does not offer: Error(usage) with those that it does.
+/// Notes the chosen scene and variant of the materials. A choice that the file does not offer: Error(usage) with those
+/// that it does.
 void apply_choices(GltfDocument& document, const LoadOptions& options);
+/// The material that a variant gives a primitive (KHR_materials_variants); nothing: its own stays.
+[[nodiscard]] std::optional<std::size_t> material_of_variant(const JsonPlace& primitive, std::size_t variant);
 
 /// The light of a node (KHR_lights_punctual), placed; nothing where it has none.
 [[nodiscard]] std::optional<Light> light_of_node(const GltfDocument& document, std::size_t node,

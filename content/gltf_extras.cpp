@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include "content/content.h"
 #include "content/gltf_extensions.h"
@@ -169,13 +170,14 @@ glm::vec3 value_of(const Row& row, const JsonPlace& place) {
 /// Calls visit(row, value) for every key of ours.
 template <typename Visit>
 void for_each_key(const JsonPlace& object, ExtrasOwner owner, Visit&& visit) {
-    if (!object.has("extras") || !object.at("extras").value().is_object()) return;  // extras may be anything
-    const JsonPlace extras = object.at("extras");
-    for (const auto& [key, child] : extras.value().items()) {
+    const auto extras = object.find("extras");
+    if (!extras || !extras->value().is_object()) return;  // extras may be anything
+    for (const JsonMember& member : extras->value().members()) {
+        const std::string& key = *member.key;
         if (!std::string_view(key).starts_with("hf_")) continue;
         const Row* row = row_of(owner, key);
-        if (row == nullptr) fail_unknown(extras, owner, key);
-        visit(*row, value_of(*row, extras.at(key)));
+        if (row == nullptr) fail_unknown(*extras, owner, key);
+        visit(*row, value_of(*row, extras->at(key)));
     }
 }
 
@@ -187,18 +189,22 @@ void check_water(const JsonPlace& root, const JsonPlace& material) {
     if (texture >= 0) {
         const std::size_t count = root.has("textures") ? root.at("textures").size() : 0;
         if (static_cast<std::size_t>(texture) >= count) {
-            material.at("extras").at("hf_water_texture").fail(
-                fmt::format("there is no texture {}: the file has {}", texture, count));
+            material.at("extras")
+                .at("hf_water_texture")
+                .fail(fmt::format("there is no texture {}: the file has {}", texture, count));
         }
     }
     if (read.water == WaterMask::texture && texture < 0) {
-        material.at("extras").at("hf_water").fail("the mask is in a texture and none is named",
-                                                  "name one with hf_water_texture");
+        material.at("extras")
+            .at("hf_water")
+            .fail("the mask is in a texture and none is named", "name one with hf_water_texture");
     }
     const bool opaque = !material.has("alphaMode") || material.at("alphaMode").text() == "OPAQUE";
     if (read.water == WaterMask::vertex_color && !opaque) {
-        material.at("extras").at("hf_water").fail("the alpha of the vertices is needed for coverage here",
-                                                  "write everywhere or texture, or make the material OPAQUE");
+        material.at("extras")
+            .at("hf_water")
+            .fail("the alpha of the vertices is needed for coverage here",
+                  "write everywhere or texture, or make the material OPAQUE");
     }
 }
 

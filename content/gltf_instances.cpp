@@ -34,9 +34,9 @@ std::optional<std::vector<glm::mat4>> instances_of_node(const GltfDocument& docu
     if (!use) return std::nullopt;
     const JsonPlace attributes = use->at("attributes");
     std::size_t count = 0;
-    for (const auto& [name, child] : attributes.value().items()) {
-        count = gltf.model.accessors.at(static_cast<std::size_t>(attributes.at(name).whole())).count;
-        break;  // the document was checked: all have as many
+    if (!attributes.value().members().empty()) {  // the document was checked: all have as many
+        const std::string& first = *attributes.value().members().front().key;
+        count = gltf.model.accessors.at(static_cast<std::size_t>(attributes.at(first).whole())).count;
     }
     if (count > kMostSurfaces) {
         use->fail(fmt::format("has {} instances, more than the {} that are read", count, kMostSurfaces));

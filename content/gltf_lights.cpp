@@ -32,9 +32,6 @@ std::optional<Light> light_of_node(const GltfDocument& document, std::size_t nod
     if (!use) return std::nullopt;
     const auto index = static_cast<std::size_t>(use->at("light").whole());
     const JsonPlace source = extension(document.root(), "KHR_lights_punctual")->at("lights").at(index);
-    const auto name_of = [](const JsonPlace& place) {
-        return place.has("name") && place.value()["name"].is_string() ? place.at("name").text() : std::string();
-    };
     Light light;
     light.kind = kind_of(source.at("type").text());
     light.name = name_of(source);

@@ -10,7 +10,6 @@
 
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
-#include <glm/gtc/quaternion.hpp>
 
 #include "content/environment/environment_strength.h"
 #include "content/gltf_extensions.h"
@@ -33,24 +32,10 @@ constexpr float kLargestCoordinate_m = 1e9f;
 /// Smallest |determinant| over the product of the axes' lengths: flatter transforms have no inverse worth having.
 constexpr double kFlattest = 1e-6;
 
-glm::mat4 local_transform(const tinygltf::Node& node) {
-    if (node.matrix.size() == 16) {
-        glm::mat4 result;
-        for (int i = 0; i < 16; ++i) {
-            result[i / 4][i % 4] = static_cast<float>(node.matrix[static_cast<std::size_t>(i)]);
-        }
-        return result;
-    }
-    const auto number = [](const std::vector<double>& from, std::size_t i, double otherwise) {
-        return static_cast<float>(from.empty() ? otherwise : from[i]);
-    };
-    const glm::vec3 translation(number(node.translation, 0, 0), number(node.translation, 1, 0),
-                                number(node.translation, 2, 0));
-    const glm::vec3 scale(number(node.scale, 0, 1), number(node.scale, 1, 1), number(node.scale, 2, 1));
-    const glm::quat rotation(number(node.rotation, 3, 1), number(node.rotation, 0, 0), number(node.rotation, 1, 0),
-                             number(node.rotation, 2, 0));
-    return glm::translate(glm::mat4(1.0f), translation) * glm::mat4_cast(glm::normalize(rotation)) *
-           glm::scale(glm::mat4(1.0f), scale);
+glm::mat4 local_transform(const GltfNode& node) {
+    if (node.matrix) return *node.matrix;
+    return glm::translate(glm::mat4(1.0f), node.translation) * glm::mat4_cast(glm::normalize(node.rotation)) *
+           glm::scale(glm::mat4(1.0f), node.scale);
 }
 
 bool is_finite(const glm::mat4& matrix) {
@@ -81,6 +66,12 @@ glm::mat4 without_scale(const glm::mat4& matrix) {
     return {glm::vec4(x, 0.0f), glm::vec4(glm::cross(z, x), 0.0f), glm::vec4(z, 0.0f), matrix[3]};
 }
 
+/// The scene that was chosen, else the default one, else the first.
+std::size_t drawn_scene(const GltfDocument& document) {
+    const JsonPlace root = document.root();
+    return document.chosen_scene.value_or(index_in(root, "scene", count_of(root, "scenes"), "scenes").value_or(0));
+}
+
 class SceneBuilder {
 public:
     SceneBuilder(const GltfDocument& document, GltfModel& gltf, Scene& scene)
@@ -88,8 +79,8 @@ public:
           gltf_(gltf),
           scene_(scene),
           materials_(document, gltf, scene),
-          moving_(moving_nodes(document.root())),
-          scene_nodes_(gltf.model.nodes.size(), -1) {}
+          moving_(moving_nodes(document.root(), gltf)),
+          scene_nodes_(gltf.nodes.size(), -1) {}
 
     /// Nodes first, then all that hangs on them: a skin may name joints anywhere in the tree.
     void add_nodes() {
@@ -99,10 +90,7 @@ public:
         for (const Visit& visit : visits_) {
             add_all_surfaces(visit);
             add_camera(visit);
-            if (auto light = light_of_node(document_, visit.node, visit.world_from_local)) {
-                light->node = carrier(visit);
-                scene_.lights.push_back(std::move(*light));
-            }
+            if (gltf_.nodes[visit.node].has_extensions) add_light(visit);
         }
         place(scene_);
         for (std::size_t i = 0; i < scene_.surfaces.size(); ++i) expect_in_range(i);
@@ -132,7 +120,7 @@ private:
         while (!open.empty()) {  // the tree was checked: no cycles
             const Open next = open.back();
             open.pop_back();
-            const tinygltf::Node& node = gltf_.model.nodes.at(next.node);
+            const GltfNode& node = gltf_.nodes.at(next.node);
             Visit visit{next.node, next.parent, local_transform(node), moving_.animated[next.node],
                         moving_.animated[next.node] || moving_.joint[next.node]};
             if (next.parent >= 0) {
@@ -159,7 +147,7 @@ private:
         }
         for (std::size_t i = 0; i < visits_.size(); ++i) {
             if (!kept[i]) continue;
-            Node node = read_node(document_, gltf_.model.nodes[visits_[i].node], visits_[i].node);
+            Node node = read_node(document_, gltf_, visits_[i].node);
             if (visits_[i].parent >= 0)
                 node.parent = scene_nodes_[visits_[static_cast<std::size_t>(visits_[i].parent)].node];
             scene_nodes_[visits_[i].node] = static_cast<int>(scene_.nodes.size());
@@ -186,8 +174,7 @@ private:
                0.0;
     }
 
-    void expect_known_joints(const tinygltf::Node& node, std::size_t primitive, const Mesh& mesh,
-                             const Skin& skin) const {
+    void expect_known_joints(const GltfNode& node, std::size_t primitive, const Mesh& mesh, const Skin& skin) const {
         for (std::size_t i = 0; i < mesh.joints.size(); ++i) {
             for (int k = 0; k < 4; ++k) {
                 if (mesh.joints[i][k] < skin.joints.size()) continue;
@@ -202,14 +189,12 @@ private:
     std::vector<std::size_t> root_nodes() const {
         std::vector<std::size_t> result;
         if (!gltf_.model.scenes.empty()) {
-            const std::size_t scene =
-                index_in(document_.root(), "scene", gltf_.model.scenes.size(), "scenes").value_or(0);
-            for (const int node : gltf_.model.scenes[scene].nodes) {
+            for (const int node : gltf_.model.scenes[drawn_scene(document_)].nodes) {
                 result.push_back(static_cast<std::size_t>(node));
             }
         } else {
-            std::vector<bool> is_child(gltf_.model.nodes.size(), false);
-            for (const tinygltf::Node& node : gltf_.model.nodes) {
+            std::vector<bool> is_child(gltf_.nodes.size(), false);
+            for (const GltfNode& node : gltf_.nodes) {
                 for (const int child : node.children) {
                     is_child[static_cast<std::size_t>(child)] = true;
                 }
@@ -225,7 +210,8 @@ private:
 
     /// One set of surfaces, or one for every instance.
     void add_all_surfaces(const Visit& visit) {
-        const auto instances = instances_of_node(document_, gltf_, visit.node);
+        const auto instances =
+            gltf_.nodes[visit.node].has_extensions ? instances_of_node(document_, gltf_, visit.node) : std::nullopt;
         if (!instances) {
             add_surfaces(visit);
             return;
@@ -247,7 +233,7 @@ private:
     }
 
     void add_surfaces(const Visit& visit) {
-        const tinygltf::Node& node = gltf_.model.nodes[visit.node];
+        const GltfNode& node = gltf_.nodes[visit.node];
         if (node.mesh < 0) {
             return;
         }
@@ -283,7 +269,8 @@ private:
             surface.node = drawn.morph_targets.empty() ? carrier(visit) : scene_nodes_[visit.node];
             const JsonPlace root = document_.root();
             apply_extras(root.at("meshes").at(mesh), ExtrasOwner::mesh, {.surface = &surface});
-            apply_extras(root.at("nodes").at(visit.node), ExtrasOwner::node, {.surface = &surface});
+            if (node.has_extras)
+                apply_extras(root.at("nodes").at(visit.node), ExtrasOwner::node, {.surface = &surface});
             scene_.surfaces.push_back(std::move(surface));
             nodes_of_surfaces_.push_back(visit.node);
         }
@@ -323,8 +310,11 @@ private:
             const UvMapping& map = *uv.of_normal_map;  // tangents are made for it
             key += fmt::format(" {} {} {} {} {}", map.set, map.scale.x, map.scale.y, map.rotation_rad, map.offset.x);
         }
-        const JsonPlace place = document_.root().at("meshes").at(mesh).at("primitives").at(primitive);
-        return place.has("targets") ? key + place.at("targets").value().dump() : key;
+        for (const auto& target : source.targets) {
+            key += " target";
+            for (const auto& [name, accessor] : target) key += fmt::format(" {} {}", name, accessor);
+        }
+        return key;
     }
 
     void expect_in_range(std::size_t surface) const {
@@ -342,8 +332,15 @@ private:
         }
     }
 
+    void add_light(const Visit& visit) {
+        if (auto light = light_of_node(document_, visit.node, visit.world_from_local)) {
+            light->node = carrier(visit);
+            scene_.lights.push_back(std::move(*light));
+        }
+    }
+
     void add_camera(const Visit& visit) {
-        const tinygltf::Node& node = gltf_.model.nodes[visit.node];
+        const GltfNode& node = gltf_.nodes[visit.node];
         if (node.camera < 0) {
             return;
         }
@@ -397,10 +394,9 @@ Scene load_checked(const std::filesystem::path& file, const LoadOptions& options
     scene.name = file.stem().string();
     scene.notices = document.notices;
     SceneBuilder(document, gltf, scene).add_nodes();
-    if (const std::size_t scenes = count_of(document.root(), "scenes"); scenes > 0) {
+    if (count_of(document.root(), "scenes") > 0) {
         Surroundings surroundings;
-        const std::size_t chosen = index_in(document.root(), "scene", scenes, "scenes").value_or(0);
-        apply_extras(document.root().at("scenes").at(chosen), ExtrasOwner::scene,
+        apply_extras(document.root().at("scenes").at(drawn_scene(document)), ExtrasOwner::scene,
                      {.scene = &scene, .surroundings = &surroundings});
         if (!surroundings.name.empty()) {
             scene.environment = environment(surroundings.name, {.size = surroundings.size}).map;

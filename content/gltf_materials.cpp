@@ -55,10 +55,8 @@ void for_each_texture_use(const JsonPlace& material, Visit&& visit) {
     const auto visit_slot = [&](const Slot& slot) {
         std::optional<JsonPlace> owner = material;
         if (slot.extension != nullptr) owner = extension(material, slot.extension);
-        if (owner && slot.owner != nullptr) {
-            owner = owner->has(slot.owner) ? std::optional(owner->at(slot.owner)) : std::nullopt;
-        }
-        if (owner && owner->has(slot.key)) visit(slot, owner->at(slot.key));
+        if (owner && slot.owner != nullptr) owner = owner->find(slot.owner);
+        if (const auto use = owner ? owner->find(slot.key) : std::nullopt) visit(slot, *use);
     };
     const MaterialModel model = model_of(material);
     if (model == MaterialModel::unlit) {
@@ -119,15 +117,17 @@ void apply_sampler(const tinygltf::Sampler& sampler, Texture& texture) {
 }
 
 float number_or(const JsonPlace& owner, const char* key, float otherwise) {
-    return owner.has(key) ? static_cast<float>(owner.at(key).number()) : otherwise;
+    const auto place = owner.find(key);
+    return place ? static_cast<float>(place->number()) : otherwise;
 }
 
 template <typename Vector>
 Vector vector_or(const JsonPlace& owner, const char* key, const Vector& otherwise) {
-    if (!owner.has(key)) return otherwise;
+    const auto place = owner.find(key);
+    if (!place) return otherwise;
     Vector result{};
     for (int i = 0; i < Vector::length(); ++i)
-        result[i] = static_cast<float>(owner.at(key).at(static_cast<std::size_t>(i)).number());
+        result[i] = static_cast<float>(place->at(static_cast<std::size_t>(i)).number());
     return result;
 }
 
@@ -185,9 +185,7 @@ std::set<std::size_t> images_used_by_materials(const GltfDocument& document) {
         if (texture.has("source")) used.insert(static_cast<std::size_t>(texture.at("source").whole()));
     };
     for_each_object(root, "materials", [&](const JsonPlace& material, std::size_t) {
-        for_each_texture_use(material, [&](const Slot&, const JsonPlace& use) {
-            use_image(use.at("index").whole());
-        });
+        for_each_texture_use(material, [&](const Slot&, const JsonPlace& use) { use_image(use.at("index").whole()); });
         Material water;
         int texture = -1;
         apply_extras(material, ExtrasOwner::material, {.material = &water, .water_texture = &texture});
@@ -226,8 +224,8 @@ Material GltfMaterials::converted(int material) {
         return result;
     }
     const JsonPlace place = document_.root().at("materials").at(static_cast<std::size_t>(material));
-    const bool named = place.has("name") && place.value()["name"].is_string() && !place.at("name").text().empty();
-    result.name = named ? place.at("name").text() : fmt::format("material {}", material);
+    result.name = name_of(place);
+    if (result.name.empty()) result.name = fmt::format("material {}", material);
     read_model(place, result);
     result.emissive = vector_or(place, "emissiveFactor", glm::vec3(0.0f)) * emissive_strength_of(place);
     if (place.has("normalTexture")) result.normal_scale = number_or(place.at("normalTexture"), "scale", 1.0f);

@@ -107,7 +107,7 @@ void check_meshopt(const JsonPlace& root) {
     });
 }
 
-void decode_meshopt(GltfDocument& document, GltfResources& resources) {
+void decode_meshopt(const GltfDocument& document, GltfResources& resources) {
     const std::size_t views = count_of(document.root(), "bufferViews");
     for (std::size_t i = 0; i < views; ++i) {
         const JsonPlace view = document.root().at("bufferViews").at(i);
@@ -124,12 +124,8 @@ void decode_meshopt(GltfDocument& document, GltfResources& resources) {
             place->fail("holds a stream that is damaged or of a newer kind", "compress the file again");
         }
         unfilter(stream, decoded);
-        const std::size_t buffer = resources.buffers.size();
-        document.json["buffers"].push_back({{"byteLength", decoded.size()}});
+        resources.unpacked_views.push_back({i, resources.buffers.size()});
         resources.buffers.push_back(std::move(decoded));
-        nlohmann::json& changed = document.json["bufferViews"][i];
-        changed["buffer"] = buffer;
-        changed["byteOffset"] = 0;
     }
 }
 

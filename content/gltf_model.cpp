@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "content/gltf_extensions.h"
 #include "engine/error.h"
 
 namespace halfframe::content {
@@ -15,39 +16,29 @@ namespace {
 
 int whole(const JsonPlace& place) { return static_cast<int>(place.whole()); }
 
-int index_or_none(const JsonPlace& owner, std::string_view key) { return owner.has(key) ? whole(owner.at(key)) : -1; }
+int index_or_none(const JsonPlace& owner, std::string_view key) {
+    const auto place = owner.find(key);
+    return place ? whole(*place) : -1;
+}
 
 std::size_t offset_of(const JsonPlace& owner, std::string_view key) {
-    return owner.has(key) ? static_cast<std::size_t>(owner.at(key).whole(0, kMostBufferBytes)) : 0;
-}
-
-std::string name_of(const JsonPlace& owner) {
-    const auto name = owner.value().find("name");
-    return name != owner.value().end() && name->is_string() ? name->get<std::string>() : std::string();
-}
-
-std::vector<double> numbers(const JsonPlace& owner, std::string_view key) {
-    std::vector<double> result;
-    if (!owner.has(key)) return result;
-    const nlohmann::json& list = owner.at(key).value();
-    result.reserve(list.size());
-    for (const nlohmann::json& number : list) result.push_back(number.get<double>());
-    return result;
+    const auto place = owner.find(key);
+    return place ? static_cast<std::size_t>(place->whole(0, kMostBufferBytes)) : 0;
 }
 
 std::vector<int> indices(const JsonPlace& owner, std::string_view key) {
     std::vector<int> result;
-    if (!owner.has(key)) return result;
-    const JsonPlace list = owner.at(key);
-    result.reserve(list.size());
-    for (std::size_t i = 0; i < list.size(); ++i) result.push_back(whole(list.at(i)));
+    if (const auto list = owner.find(key)) {
+        result.reserve(list->size());
+        for (std::size_t i = 0; i < list->size(); ++i) result.push_back(whole(list->at(i)));
+    }
     return result;
 }
 
 std::map<std::string, int> accessors_by_name(const JsonPlace& place) {
     std::map<std::string, int> result;
-    for (const auto& [name, child] : place.value().items())
-        result.emplace_hint(result.end(), name, whole(place.at(name)));
+    for (const JsonMember& member : place.value().members())
+        result.emplace_hint(result.end(), *member.key, whole(place.at(*member.key)));
     return result;
 }
 
@@ -129,17 +120,29 @@ tinygltf::Camera camera_of(const JsonPlace& camera) {
     return result;
 }
 
-tinygltf::Node node_of(const JsonPlace& node) {
-    tinygltf::Node result;
+/// `count` numbers of a checked list.
+void read_numbers(const JsonPlace& list, int count, float* into) {
+    for (int i = 0; i < count; ++i)
+        into[i] = static_cast<float>(list.value().elements()[static_cast<std::size_t>(i)].number());
+}
+
+GltfNode node_of(const JsonPlace& node) {
+    GltfNode result;
     result.name = name_of(node);
     result.mesh = index_or_none(node, "mesh");
     result.camera = index_or_none(node, "camera");
     result.skin = index_or_none(node, "skin");
     result.children = indices(node, "children");
-    result.matrix = numbers(node, "matrix");
-    result.translation = numbers(node, "translation");
-    result.rotation = numbers(node, "rotation");
-    result.scale = numbers(node, "scale");
+    if (const auto matrix = node.find("matrix")) read_numbers(*matrix, 16, &result.matrix.emplace()[0][0]);
+    if (const auto translation = node.find("translation")) read_numbers(*translation, 3, &result.translation.x);
+    if (const auto scale = node.find("scale")) read_numbers(*scale, 3, &result.scale.x);
+    if (const auto rotation = node.find("rotation")) {
+        glm::vec4 xyzw;
+        read_numbers(*rotation, 4, &xyzw.x);
+        result.rotation = glm::quat(xyzw.w, xyzw.x, xyzw.y, xyzw.z);
+    }
+    result.has_extensions = node.has("extensions");
+    result.has_extras = node.has("extras");
     return result;
 }
 
@@ -176,6 +179,16 @@ template <typename T>
 void read_all(const JsonPlace& root, std::string_view key, T (*read)(const JsonPlace&), std::vector<T>& into) {
     into.reserve(count_of(root, key));
     for_each_object(root, key, [&](const JsonPlace& element, std::size_t) { into.push_back(read(element)); });
+}
+
+void apply_variant(const GltfDocument& document, tinygltf::Model& model) {
+    if (!document.chosen_variant) return;
+    for_each_object(document.root(), "meshes", [&](const JsonPlace& mesh, std::size_t i) {
+        for_each_object(mesh, "primitives", [&](const JsonPlace& primitive, std::size_t k) {
+            if (const auto material = material_of_variant(primitive, *document.chosen_variant))
+                model.meshes[i].primitives[k].material = static_cast<int>(*material);
+        });
+    });
 }
 
 struct Size {
@@ -303,13 +316,18 @@ GltfModel parse_gltf_model(const GltfDocument& document, GltfResources resources
     const JsonPlace root = document.root();
     tinygltf::Model& model = result.model;
     read_all(root, "bufferViews", &view_of, model.bufferViews);
+    for (const auto& [view, buffer] : resources.unpacked_views) {
+        model.bufferViews[view].buffer = static_cast<int>(buffer);
+        model.bufferViews[view].byteOffset = 0;
+    }
     read_all(root, "accessors", &accessor_of, model.accessors);
     read_all(root, "images", &image_of, model.images);
     read_all(root, "samplers", &sampler_of, model.samplers);
     read_all(root, "textures", &texture_of, model.textures);
     read_all(root, "meshes", &mesh_of, model.meshes);
+    apply_variant(document, model);
     read_all(root, "cameras", &camera_of, model.cameras);
-    read_all(root, "nodes", &node_of, model.nodes);
+    read_all(root, "nodes", &node_of, result.nodes);
     read_all(root, "scenes", &scene_of, model.scenes);
     decode_images(document, resources, used_images, result);
     return result;

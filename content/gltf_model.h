@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <tiny_gltf.h>
+#include <glm/gtc/quaternion.hpp>
 
 #include "content/gltf_document.h"
 #include "engine/frame/scene.h"
@@ -24,9 +25,24 @@ struct DecodedImage {
     std::vector<std::uint8_t> rgba;
 };
 
+struct GltfNode {
+    std::string name;
+    int mesh = -1;  ///< -1: none, as of the next two
+    int camera = -1;
+    int skin = -1;
+    std::vector<int> children;
+    std::optional<glm::mat4> matrix;  ///< in place of the next three
+    glm::vec3 translation{0.0f};      ///< [m]
+    glm::quat rotation{1.0f, 0.0f, 0.0f, 0.0f};
+    glm::vec3 scale{1.0f};
+    bool has_extensions = false;
+    bool has_extras = false;
+};
+
 struct GltfModel {
     JsonSource source;
-    tinygltf::Model model;             ///< its buffers and images have no bytes
+    tinygltf::Model model;  ///< its buffers and images have no bytes; its nodes are the next ones
+    std::vector<GltfNode> nodes;
     std::vector<std::string> buffers;  ///< empty: without data
     std::vector<DecodedImage> images;
 

@@ -211,8 +211,13 @@ void read_moving_streams(const GltfModel& gltf, const tinygltf::Primitive& primi
     read_targets(gltf, primitive, place, mesh, so_far);
 }
 
-MovingNodes moving_nodes(const JsonPlace& root) {
-    const std::size_t count = count_of(root, "nodes");
+std::size_t morph_targets_of(const GltfModel& gltf, const GltfNode& node) {
+    if (node.mesh < 0) return 0;
+    return gltf.model.meshes[static_cast<std::size_t>(node.mesh)].primitives.front().targets.size();
+}
+
+MovingNodes moving_nodes(const JsonPlace& root, const GltfModel& gltf) {
+    const std::size_t count = gltf.nodes.size();
     MovingNodes moving{std::vector<bool>(count), std::vector<bool>(count), std::vector<bool>(count)};
     for_each_object(root, "animations", [&](const JsonPlace& animation, std::size_t) {
         for_each_object(animation, "channels", [&](const JsonPlace& channel, std::size_t) {
@@ -224,36 +229,23 @@ MovingNodes moving_nodes(const JsonPlace& root) {
         for (std::size_t i = 0; i < skin.at("joints").size(); ++i)
             moving.joint[static_cast<std::size_t>(skin.at("joints").at(i).whole())] = true;
     });
-    for_each_object(root, "nodes", [&](const JsonPlace& node, std::size_t index) {
-        if (!node.has("mesh")) return;
-        const JsonPlace mesh = root.at("meshes").at(static_cast<std::size_t>(node.at("mesh").whole()));
-        moving.morphs[index] = count_of(mesh.at("primitives").at(std::size_t{0}), "targets") > 0;
-    });
+    for (std::size_t i = 0; i < count; ++i) moving.morphs[i] = morph_targets_of(gltf, gltf.nodes[i]) > 0;
     return moving;
 }
 
-Node read_node(const GltfDocument& document, const tinygltf::Node& node, std::size_t index) {
+Node read_node(const GltfDocument& document, const GltfModel& gltf, std::size_t index) {
+    const GltfNode& node = gltf.nodes[index];
     Node result;
     result.name = node.name.empty() ? fmt::format("node {}", index) : node.name;
-    const auto number = [](const std::vector<double>& from, std::size_t i, double otherwise) {
-        return static_cast<float>(from.empty() ? otherwise : from[i]);
-    };
-    if (node.matrix.size() == 16) {
-        glm::mat4 matrix;
-        for (int i = 0; i < 16; ++i)
-            matrix[i / 4][i % 4] = static_cast<float>(node.matrix[static_cast<std::size_t>(i)]);
-        result.parent_from_local = matrix;
-    }
-    result.translation = {number(node.translation, 0, 0), number(node.translation, 1, 0),
-                          number(node.translation, 2, 0)};
-    result.scale = {number(node.scale, 0, 1), number(node.scale, 1, 1), number(node.scale, 2, 1)};
-    result.rotation = unit(glm::quat(number(node.rotation, 3, 1), number(node.rotation, 0, 0),
-                                     number(node.rotation, 1, 0), number(node.rotation, 2, 0)));
+    result.parent_from_local = node.matrix;
+    result.translation = node.translation;
+    result.scale = node.scale;
+    result.rotation = unit(node.rotation);
     if (node.mesh < 0) return result;
+    const std::size_t targets = morph_targets_of(gltf, node);
+    result.morph_weights.assign(targets, 0.0f);
     const JsonPlace root = document.root();
     const JsonPlace mesh = root.at("meshes").at(static_cast<std::size_t>(node.mesh));
-    const std::size_t targets = count_of(mesh.at("primitives").at(std::size_t{0}), "targets");
-    result.morph_weights.assign(targets, 0.0f);
     for (const JsonPlace& owner : {mesh, root.at("nodes").at(index)}) {  // the node's own go first
         if (!owner.has("weights")) continue;
         for (std::size_t i = 0; i < targets; ++i)
@@ -278,7 +270,8 @@ Skin read_skin(const GltfDocument& document, const GltfModel& gltf, std::size_t 
     skin.joint_from_mesh.assign(skin.joints.size(), glm::mat4(1.0f));
     if (!source.has("inverseBindMatrices")) return skin;
     const auto accessor = static_cast<int>(source.at("inverseBindMatrices").whole());
-    const std::vector<float> numbers = read_finite_floats(gltf, source.pointer() + "/inverseBindMatrices", accessor);
+    const std::vector<float> numbers =
+        read_finite_floats(gltf, fmt::format("/skins/{}/inverseBindMatrices", index), accessor);
     for (std::size_t i = 0; i < skin.joints.size(); ++i)
         skin.joint_from_mesh[i] = matrix_of(std::span(numbers).subspan(16 * i, 16));
     return skin;
@@ -299,20 +292,20 @@ std::vector<Animation> read_animations(const GltfDocument& document, const GltfM
                 ++left_out;
                 return;
             }
-            const JsonPlace sampler = source.at("samplers").at(static_cast<std::size_t>(channel.at("sampler").whole()));
+            const auto of_channel = static_cast<std::size_t>(channel.at("sampler").whole());
+            const JsonPlace sampler = source.at("samplers").at(of_channel);
+            const std::string place = fmt::format("/animations/{}/samplers/{}", index, of_channel);
             AnimationChannel read;
             read.node = node;
             read.value = value_of(target.at("path").text());
             read.interpolation = interpolation_of(sampler);
-            read.times_s =
-                read_times(gltf, sampler.pointer() + "/input", static_cast<int>(sampler.at("input").whole()));
-            read.values =
-                read_finite_floats(gltf, sampler.pointer() + "/output", static_cast<int>(sampler.at("output").whole()));
+            read.times_s = read_times(gltf, place + "/input", static_cast<int>(sampler.at("input").whole()));
+            read.values = read_finite_floats(gltf, place + "/output", static_cast<int>(sampler.at("output").whole()));
             values += read.values.size() + read.times_s.size();
             if (values > kMostAnimatedValues) {
                 sampler.fail(fmt::format("all animations up to here have over {} values", kMostAnimatedValues));
             }
-            expect_rotations(gltf, sampler.pointer() + "/output", read);
+            expect_rotations(gltf, place + "/output", read);
             normalise_keys(read);
             animation.duration_s = std::max(animation.duration_s, read.times_s.back());
             animation.channels.push_back(std::move(read));

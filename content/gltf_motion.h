@@ -24,10 +24,10 @@ struct MovingNodes {
     std::vector<bool> morphs;
     [[nodiscard]] bool any(std::size_t node) const { return animated[node] || joint[node] || morphs[node]; }
 };
-[[nodiscard]] MovingNodes moving_nodes(const JsonPlace& root);
+[[nodiscard]] MovingNodes moving_nodes(const JsonPlace& root, const GltfModel& gltf);
 
 /// A node as Scene::nodes has it, without its parent.
-[[nodiscard]] Node read_node(const GltfDocument& document, const tinygltf::Node& node, std::size_t index);
+[[nodiscard]] Node read_node(const GltfDocument& document, const GltfModel& gltf, std::size_t index);
 
 /// `scene_nodes`: place in Scene::nodes of each node of the document; -1: it is not in the scene.
 [[nodiscard]] Skin read_skin(const GltfDocument& document, const GltfModel& gltf, std::size_t skin,

@@ -1,6 +1,7 @@
 // Accessors and primitives: bytes to vertex streams.
 #include "content/gltf_model.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>

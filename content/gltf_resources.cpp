@@ -124,20 +124,21 @@ std::string data_of_uri(const JsonPlace& place, const std::string& uri) {
     return base64_decoded(place, std::string_view(uri).substr(comma + 1));
 }
 
-std::string bytes_of_uri(const GltfDocument& document, const JsonPlace& place) {
+/// `list` and `index`: "images", 3: where the URI stands.
+std::string bytes_of_uri(const GltfDocument& document, const JsonPlace& place, const char* list, std::size_t index) {
     const std::string& uri = place.text();
     if (uri.starts_with("data:")) {
         return data_of_uri(place, uri);
     }
     const std::filesystem::path path = path_of(document, place, uri);
-    return read_regular_file(path, kMostFileBytes, fmt::format("{}: {}", document.source.file, place.pointer()));
+    return read_regular_file(path, kMostFileBytes, fmt::format("{}: /{}/{}/uri", document.source.file, list, index));
 }
 
 std::string bytes_of_buffer(GltfDocument& document, const JsonPlace& buffer, std::size_t index) {
     const auto byte_length = static_cast<std::size_t>(buffer.at("byteLength").whole());
     std::string bytes;
     if (buffer.has("uri")) {
-        bytes = bytes_of_uri(document, buffer.at("uri"));
+        bytes = bytes_of_uri(document, buffer.at("uri"), "buffers", index);
     } else if (index == 0 && document.binary_chunk) {
         bytes = std::move(*document.binary_chunk);
         document.binary_chunk.reset();
@@ -159,8 +160,9 @@ GltfResources read_gltf_resources(GltfDocument& document) {
     for_each_object(document.root(), "buffers", [&](const JsonPlace& buffer, std::size_t index) {
         resources.buffers.push_back(bytes_of_buffer(document, buffer, index));
     });
-    for_each_object(document.root(), "images", [&](const JsonPlace& image, std::size_t) {
-        resources.images.push_back(image.has("uri") ? bytes_of_uri(document, image.at("uri")) : std::string());
+    for_each_object(document.root(), "images", [&](const JsonPlace& image, std::size_t index) {
+        resources.images.push_back(image.has("uri") ? bytes_of_uri(document, image.at("uri"), "images", index)
+                                                    : std::string());
         image_file_bytes += resources.images.back().size();
         if (image.has("uri") && resources.images.back().empty()) {
             image.at("uri").fail("names an empty file");

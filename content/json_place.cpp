@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <optional>
 #include <vector>
 
 #include <fmt/format.h>
@@ -49,24 +50,31 @@ std::size_t too_deep_at(std::string_view text, int deepest) {
     return std::string_view::npos;
 }
 
-}  // namespace
-
-JsonPlace::JsonPlace(const JsonPlace& above, const nlohmann::json& value, Step step)
-    : value_(&value), source_(above.source_), start_(above.start_), steps_(above.steps_), depth_(above.depth_) {
-    if (depth_ == steps_.size()) {
-        start_ = above.pointer();
-        depth_ = 0;
+/// The JSON pointer from `above` down to `value`, when it is there.
+std::optional<std::string> pointer_below(const JsonValue& above, const JsonValue* value) {
+    const auto by_way_of = [&](const JsonValue& child, const auto& step) -> std::optional<std::string> {
+        if (&child == value) return fmt::format("/{}", step);
+        std::optional<std::string> rest = pointer_below(child, value);
+        if (rest) rest = fmt::format("/{}{}", step, *rest);
+        return rest;
+    };
+    if (above.is_array()) {
+        const std::span<const JsonValue> elements = above.elements();
+        for (std::size_t i = 0; i < elements.size(); ++i) {
+            if (auto found = by_way_of(elements[i], i)) return found;
+        }
+    } else if (above.is_object()) {
+        for (const JsonMember& member : above.members()) {
+            if (auto found = by_way_of(member.value, *member.key)) return found;
+        }
     }
-    steps_[depth_++] = step;
+    return std::nullopt;
 }
 
+}  // namespace
+
 std::string JsonPlace::pointer() const {
-    std::string result = start_;
-    for (std::size_t i = 0; i < depth_; ++i) {
-        result += '/';
-        result += steps_[i].key != nullptr ? *steps_[i].key : std::to_string(steps_[i].element);
-    }
-    return result;
+    return value_ == root_ ? std::string() : pointer_below(*root_, value_).value();
 }
 
 void JsonPlace::fail(const std::string& what) const { fail(what, source_->advice); }
@@ -76,50 +84,27 @@ void JsonPlace::fail(const std::string& what, const std::string& advice) const {
     throw Error(Fault::input, fmt::format("{}: {}: {}; {}", source_->file, where.empty() ? "/" : where, what, advice));
 }
 
-void JsonPlace::expect_object() const {
-    if (!value_->is_object()) {
-        fail(fmt::format("must be an object but is {}", value_->type_name()));
-    }
+void JsonPlace::fail_kind(const char* wanted) const {
+    fail(fmt::format("must be {} but is {}", wanted, value_->kind_name()));
 }
 
-bool JsonPlace::has(std::string_view key) const {
-    expect_object();
-    return value_->find(key) != value_->end();
-}
-
-JsonPlace JsonPlace::at(std::string_view key) const {
-    expect_object();
-    const auto found = value_->find(key);
-    if (found == value_->end()) {
-        fail(fmt::format("'{}' is missing", key));
-    }
-    return {*this, *found, Step{&found.key(), 0}};
-}
-
-std::size_t JsonPlace::size() const {
-    if (!value_->is_array()) {
-        fail(fmt::format("must be an array but is {}", value_->type_name()));
-    }
-    return value_->size();
-}
+void JsonPlace::fail_missing(std::string_view key) const { fail(fmt::format("'{}' is missing", key)); }
 
 JsonPlace JsonPlace::at(std::size_t index) const {
     expect(index < size(), "an element of a JSON array was asked for past its end");
-    return {*this, (*value_)[index], Step{nullptr, index}};
+    return {*this, value_->elements()[index]};
 }
 
 std::uint64_t JsonPlace::whole(std::uint64_t lowest, std::uint64_t highest) const {
     std::uint64_t result = 0;
-    // A parser calls whole numbers from 0 up unsigned; those that were put into the document may be signed.
-    if (value_->is_number_unsigned() || (value_->is_number_integer() && value_->get<std::int64_t>() >= 0)) {
-        result = value_->get<std::uint64_t>();
-    } else if (value_->is_number_float() && value_->get<double>() >= 0.0 &&
-               value_->get<double>() <= kLargestExactWhole &&
-               std::trunc(value_->get<double>()) == value_->get<double>()) {
-        result = static_cast<std::uint64_t>(value_->get<double>());
+    if (value_->kind() == JsonValue::Kind::whole) {
+        result = value_->whole();
+    } else if (value_->is_number() && value_->number() >= 0.0 && value_->number() <= kLargestExactWhole &&
+               std::trunc(value_->number()) == value_->number()) {
+        result = static_cast<std::uint64_t>(value_->number());
     } else {
         fail(fmt::format("must be a whole number from {} up but is {}", lowest,
-                         value_->is_number() ? value_->dump() : value_->type_name()));
+                         value_->is_number() ? value_->number_text() : value_->kind_name()));
     }
     if (result < lowest || result > highest) {
         fail(fmt::format("is {} but must lie from {} to {}", result, lowest, highest));
@@ -129,9 +114,9 @@ std::uint64_t JsonPlace::whole(std::uint64_t lowest, std::uint64_t highest) cons
 
 double JsonPlace::number() const {
     if (!value_->is_number()) {
-        fail(fmt::format("must be a number but is {}", value_->type_name()));
+        fail_kind("a number");
     }
-    return value_->get<double>();
+    return value_->number();
 }
 
 double JsonPlace::number(double lowest, double highest) const {
@@ -144,16 +129,16 @@ double JsonPlace::number(double lowest, double highest) const {
 
 bool JsonPlace::boolean() const {
     if (!value_->is_boolean()) {
-        fail(fmt::format("must be true or false but is {}", value_->type_name()));
+        fail_kind("true or false");
     }
-    return value_->get<bool>();
+    return value_->boolean();
 }
 
 const std::string& JsonPlace::text() const {
-    if (!value_->is_string()) {
-        fail(fmt::format("must be a string but is {}", value_->type_name()));
+    if (!value_->is_text()) {
+        fail_kind("a string");
     }
-    return value_->get_ref<const std::string&>();
+    return value_->text();
 }
 
 void JsonPlace::expect_numbers(std::size_t count, double lowest, double highest) const {
@@ -161,15 +146,16 @@ void JsonPlace::expect_numbers(std::size_t count, double lowest, double highest)
         fail(fmt::format("must hold {} numbers but holds {}", count, size()));
     }
     for (std::size_t i = 0; i < count; ++i) {
-        const nlohmann::json& each = (*value_)[i];
-        const bool fits = each.is_number() && each.get<double>() >= lowest && each.get<double>() <= highest;
+        const JsonValue& each = value_->elements()[i];
+        const bool fits = each.is_number() && each.number() >= lowest && each.number() <= highest;
         if (!fits) (void)at(i).number(lowest, highest);  // says why
     }
 }
 
 void JsonPlace::expect_only(std::initializer_list<std::string_view> keys) const {
     expect_object();
-    for (const auto& [key, child] : value_->items()) {
+    for (const JsonMember& member : value_->members()) {
+        const std::string& key = *member.key;
         if (std::find(keys.begin(), keys.end(), key) == keys.end()) {
             std::string known;
             for (const std::string_view each : keys) {
@@ -180,22 +166,21 @@ void JsonPlace::expect_only(std::initializer_list<std::string_view> keys) const 
     }
 }
 
-nlohmann::json parse_json(std::string_view text, const JsonSource& source, int deepest) {
-    const std::size_t too_deep = too_deep_at(text, deepest);
-    if (too_deep != std::string_view::npos) {
+JsonDocument parse_json(std::string_view text, const JsonSource& source, int deepest) {
+    JsonDocument document;
+    const std::optional<JsonDocument::Fault> fault = document.parse(text, deepest);
+    if (!fault) return document;
+    if (const std::size_t too_deep = too_deep_at(text, deepest); too_deep != std::string_view::npos) {
         throw Error(Fault::input, fmt::format("{}: {}: brackets nest deeper than {} levels; {}", source.file,
                                               line_and_column(text, too_deep), deepest, source.advice));
     }
-    try {
-        return nlohmann::json::parse(text);
-    } catch (const nlohmann::json::parse_error& error) {
+    if (!fault->byte) {
         throw Error(Fault::input,
-                    fmt::format("{}: {}: is not JSON here (byte {}); {}", source.file,
-                                line_and_column(text, error.byte > 0 ? error.byte - 1 : 0), error.byte, source.advice));
-    } catch (const nlohmann::json::exception& error) {
-        throw Error(Fault::input,
-                    fmt::format("{}: is not usable JSON ({}); {}", source.file, error.what(), source.advice));
+                    fmt::format("{}: is not usable JSON ({}); {}", source.file, fault->what, source.advice));
     }
+    throw Error(Fault::input, fmt::format("{}: {}: is not JSON here (byte {}); {}", source.file,
+                                          line_and_column(text, *fault->byte > 0 ? *fault->byte - 1 : 0), *fault->byte,
+                                          source.advice));
 }
 
 std::string read_regular_file(const std::filesystem::path& file, std::uint64_t most_bytes, const std::string& owner) {

@@ -1,15 +1,15 @@
 // A value in a JSON file that knows its place, so that every complaint about it names file and JSON pointer.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <initializer_list>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 
-#include <nlohmann/json.hpp>
+#include "content/json_value.h"
 
 namespace halfframe::content {
 
@@ -20,26 +20,46 @@ struct JsonSource {
 };
 
 /// A borrowed value; document and source must outlive it. Every read checks the type first and fails with
-/// Error(input) "FILE: POINTER: what is wrong; what to try". Nothing of nlohmann's own exceptions gets out.
+/// Error(input) "FILE: POINTER: what is wrong; what to try".
 class JsonPlace {
 public:
-    JsonPlace(const nlohmann::json& value, const JsonSource& source, std::string pointer = {})
-        : value_(&value), source_(&source), start_(std::move(pointer)) {}
+    JsonPlace(const JsonDocument& document, const JsonSource& source)
+        : value_(&document.root()), root_(value_), source_(&source) {}
 
     [[noreturn]] void fail(const std::string& what) const;
     [[noreturn]] void fail(const std::string& what, const std::string& advice) const;
 
-    [[nodiscard]] const nlohmann::json& value() const { return *value_; }
+    [[nodiscard]] const JsonValue& value() const { return *value_; }
+    /// The JSON pointer. Looks through the document for it, as long as that is: for complaints.
     [[nodiscard]] std::string pointer() const;
     [[nodiscard]] const JsonSource& source() const { return *source_; }
 
-    void expect_object() const;
+    void expect_object() const {
+        if (!value_->is_object()) fail_kind("an object");
+    }
     /// The key is there. The value must be an object.
-    [[nodiscard]] bool has(std::string_view key) const;
+    [[nodiscard]] bool has(std::string_view key) const {
+        expect_object();
+        return value_->find(key) != nullptr;
+    }
+    /// What is behind the key, if it is there.
+    [[nodiscard]] std::optional<JsonPlace> find(std::string_view key) const {
+        expect_object();
+        const JsonValue* found = value_->find(key);
+        return found != nullptr ? std::optional(JsonPlace(*this, *found)) : std::nullopt;
+    }
     /// Fails when the key is missing.
-    [[nodiscard]] JsonPlace at(std::string_view key) const;
+    [[nodiscard]] JsonPlace at(std::string_view key) const {
+        expect_object();
+        const JsonValue* found = value_->find(key);
+        if (found == nullptr) fail_missing(key);
+        return {*this, *found};
+    }
     /// Number of elements. The value must be an array.
-    [[nodiscard]] std::size_t size() const;
+    [[nodiscard]] std::size_t size() const {
+        if (!value_->is_array()) fail_kind("an array");
+        return value_->elements().size();
+    }
     [[nodiscard]] JsonPlace at(std::size_t index) const;
 
     /// A whole number; 3.0 counts as 3.
@@ -56,23 +76,19 @@ public:
     void expect_only(std::initializer_list<std::string_view> keys) const;
 
 private:
-    /// One step down: a key, which the document holds, or an element where `key` is nullptr.
-    struct Step {
-        const std::string* key = nullptr;
-        std::size_t element = 0;
-    };
-    JsonPlace(const JsonPlace& above, const nlohmann::json& value, Step step);
+    JsonPlace(const JsonPlace& above, const JsonValue& value)
+        : value_(&value), root_(above.root_), source_(above.source_) {}
 
-    const nlohmann::json* value_;
+    [[noreturn]] void fail_kind(const char* wanted) const;
+    [[noreturn]] void fail_missing(std::string_view key) const;
+
+    const JsonValue* value_;
+    const JsonValue* root_;
     const JsonSource* source_;
-    // The way here. Put into words only for a complaint: half of the time of a load went into pointers nobody read.
-    std::string start_;
-    std::array<Step, 8> steps_{};
-    std::size_t depth_ = 0;  ///< of steps_ that count
 };
 
 /// Parses JSON text. Bad text, or nesting deeper than `deepest`: Error(input) with line and column.
-[[nodiscard]] nlohmann::json parse_json(std::string_view text, const JsonSource& source, int deepest = 64);
+[[nodiscard]] JsonDocument parse_json(std::string_view text, const JsonSource& source, int deepest = 64);
 
 /// A whole regular file of at most `most_bytes`. Missing, a folder, a pipe, too big: Error(input). `owner` starts the
 /// message: "FILE" or "FILE: POINTER".

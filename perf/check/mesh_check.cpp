@@ -144,17 +144,19 @@ void check_file_normals(const Request& request, Report& report) {
     const content::GltfResources resources = content::read_gltf_resources(document);
     const content::JsonPlace root = document.root();
     std::set<std::size_t> seen;
-    content::for_each_object(root, "meshes", [&](const content::JsonPlace& mesh, std::size_t) {
-        content::for_each_object(mesh, "primitives", [&](const content::JsonPlace& primitive, std::size_t) {
-            if (!primitive.at("attributes").has("NORMAL")) return;
-            const content::JsonPlace place = primitive.at("attributes").at("NORMAL");
-            const auto accessor = static_cast<std::size_t>(place.whole());
+    content::for_each_object(root, "meshes", [&](const content::JsonPlace& mesh, std::size_t at) {
+        content::for_each_object(mesh, "primitives", [&](const content::JsonPlace& primitive, std::size_t part) {
+            const auto normal = primitive.at("attributes").find("NORMAL");
+            if (!normal) return;
+            const auto accessor = static_cast<std::size_t>(normal->whole());
             if (!seen.insert(accessor).second) return;
             const std::vector<glm::vec3> normals = normals_of(root, resources, accessor);
             const LengthError error = length_error(normals, request.thresholds.vertex_normal_length);
             if (error.off > 0) {
                 report.findings.push_back(
-                    normals_finding(error, normals.size(), place.pointer(), fmt::format("accessor {}", accessor)));
+                    normals_finding(error, normals.size(),
+                                    fmt::format("/meshes/{}/primitives/{}/attributes/NORMAL", at, part),
+                                    fmt::format("accessor {}", accessor)));
             }
         });
     });

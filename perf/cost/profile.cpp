@@ -147,7 +147,8 @@ void expect_known_constants(const content::JsonPlace& constants, std::span<const
         keys.push_back(one.key);
         list += (list.empty() ? "" : ", ") + std::string(one.key);
     }
-    for (const auto& [key, value] : constants.value().items()) {
+    for (const content::JsonMember& member : constants.value().members()) {
+        const std::string& key = *member.key;
         if (std::ranges::find(keys, std::string_view(key)) == keys.end())
             constants.fail(fmt::format("unknown key '{}'{}", key, content::did_you_mean(key, keys)),
                            "the constants of this model are " + list);

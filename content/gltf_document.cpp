@@ -212,8 +212,8 @@ std::optional<std::size_t> index_in(const JsonPlace& owner, std::string_view key
 GltfDocument read_gltf_document(const std::filesystem::path& file) {
     GltfDocument document{
         .file = file, .source = {file.string(), kAdvice}, .json = {}, .binary_chunk = {}, .notices = {}};
-    std::string bytes = read_regular_file(file, kMostFileBytes, file.string());
-    const bool binary = bytes.starts_with("glTF");
+    Bytes bytes = read_regular_file(file, kMostFileBytes, file.string());
+    const bool binary = std::string_view(bytes).starts_with("glTF");
     if (!binary && file.extension() == ".glb") {
         bad_glb(document, 0, "a GLB starts with the letters glTF and this file does not");
     }
@@ -227,10 +227,7 @@ GltfDocument read_gltf_document(const std::filesystem::path& file) {
     }
     document.json = parse_json(text, document.source);
     if (chunks.binary) {  // in the memory it was read into
-        const auto start = static_cast<std::size_t>(chunks.binary->data() - bytes.data());
-        const std::size_t size = chunks.binary->size();
-        bytes.erase(0, start);
-        bytes.resize(size);
+        bytes.keep(static_cast<std::size_t>(chunks.binary->data() - bytes.data()), chunks.binary->size());
         document.binary_chunk = std::move(bytes);
     }
     return document;

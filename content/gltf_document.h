@@ -36,7 +36,7 @@ struct GltfDocument {
     std::filesystem::path file;
     JsonSource source;
     JsonDocument json;
-    std::optional<std::string> binary_chunk;  ///< GLB only
+    std::optional<Bytes> binary_chunk;  ///< GLB only
     std::vector<std::string> notices;
     std::optional<std::size_t> chosen_scene;    ///< in place of the default one
     std::optional<std::size_t> chosen_variant;  ///< of the materials (KHR_materials_variants)
@@ -64,8 +64,8 @@ struct GltfResources {
         std::size_t view = 0;
         std::size_t buffer = 0;
     };
-    std::vector<std::string> buffers;  ///< of the document, then those of unpacked views
-    std::vector<std::string> images;
+    std::vector<Bytes> buffers;  ///< of the document, then those of unpacked views
+    std::vector<Bytes> images;
     std::vector<UnpackedView> unpacked_views;
 };
 /// Reads data URIs, files beside the asset and the GLB's binary chunk. A file must lie in the asset's folder or below,

@@ -58,7 +58,7 @@ void check_shape(const JsonPlace& place, const Stream& stream) {
     }
 }
 
-int decode(const Stream& stream, const unsigned char* bytes, std::string& out) {
+int decode(const Stream& stream, const unsigned char* bytes, Bytes& out) {
     if (stream.mode == "TRIANGLES")
         return meshopt_decodeIndexBuffer(out.data(), stream.count, stream.stride, bytes, stream.bytes);
     if (stream.mode == "INDICES")
@@ -66,7 +66,7 @@ int decode(const Stream& stream, const unsigned char* bytes, std::string& out) {
     return meshopt_decodeVertexBuffer(out.data(), stream.count, stream.stride, bytes, stream.bytes);
 }
 
-void unfilter(const Stream& stream, std::string& out) {
+void unfilter(const Stream& stream, Bytes& out) {
     if (stream.filter == "OCTAHEDRAL") meshopt_decodeFilterOct(out.data(), stream.count, stream.stride);
     if (stream.filter == "QUATERNION") meshopt_decodeFilterQuat(out.data(), stream.count, stream.stride);
     if (stream.filter == "EXPONENTIAL") meshopt_decodeFilterExp(out.data(), stream.count, stream.stride);
@@ -114,11 +114,11 @@ void decode_meshopt(const GltfDocument& document, GltfResources& resources) {
         const auto place = meshopt_of(view);
         if (!place) continue;
         const Stream stream = stream_of(*place);
-        const std::string& source = resources.buffers.at(stream.buffer);
+        const std::string_view source = resources.buffers.at(stream.buffer);
         if (source.size() < stream.offset + stream.bytes) {
             place->at("buffer").fail(fmt::format("buffer {} has no data", stream.buffer));
         }
-        std::string decoded(stream.stride * stream.count, '\0');
+        Bytes decoded(stream.stride * stream.count);
         const auto* bytes = reinterpret_cast<const unsigned char*>(source.data()) + stream.offset;
         if (decode(stream, bytes, decoded) != 0) {
             place->fail("holds a stream that is damaged or of a newer kind", "compress the file again");

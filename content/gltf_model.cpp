@@ -288,7 +288,7 @@ void decode_images(const GltfDocument& document, GltfResources& resources, const
                         .substr(range.byteOffset, range.byteLength);
         }
         gltf.images[at] = decoded(place, bytes, pixels);
-        std::string().swap(resources.images[at]);
+        resources.images[at] = {};
     }
 }
 

@@ -7,6 +7,7 @@
 #include <array>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -43,7 +44,7 @@ struct GltfModel {
     JsonSource source;
     tinygltf::Model model;  ///< its buffers and images have no bytes; its nodes are the next ones
     std::vector<GltfNode> nodes;
-    std::vector<std::string> buffers;  ///< empty: without data
+    std::vector<Bytes> buffers;  ///< empty: without data
     std::vector<DecodedImage> images;
 
     /// Error(input) when the buffer behind the view has no data.
@@ -59,6 +60,8 @@ struct GltfModel {
 template <typename T>
 [[nodiscard]] std::vector<T> read_elements(const GltfModel& gltf, int accessor);
 [[nodiscard]] std::vector<std::uint32_t> read_indices(const GltfModel& gltf, int accessor);
+/// Is none of them infinite or not a number?
+[[nodiscard]] bool all_finite(std::span<const float> values);
 /// All components of all elements one after the other, normalized integers as above. Not for MAT2 and MAT3 of small
 /// integers, whose columns are padded.
 [[nodiscard]] std::vector<float> read_floats(const GltfModel& gltf, int accessor);

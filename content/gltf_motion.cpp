@@ -22,7 +22,8 @@ int attribute(const tinygltf::Primitive& primitive, const std::string& name) {
 
 std::vector<float> read_finite_floats(const GltfModel& gltf, const std::string& place, int accessor) {
     std::vector<float> values = read_floats(gltf, accessor);
-    for (std::size_t i = 0; i < values.size(); ++i) {
+    const bool is_right = all_finite(values);
+    for (std::size_t i = 0; !is_right && i < values.size(); ++i) {
         if (!std::isfinite(values[i])) {
             fail(gltf, place, fmt::format("number {} of accessor {} is infinite or not a number", i, accessor));
         }
@@ -91,7 +92,7 @@ void add_notices(const std::string& place, const Losses& losses, std::vector<std
 
 void read_joints(const GltfModel& gltf, const tinygltf::Primitive& primitive, const std::string& place, Mesh& mesh,
                  std::vector<std::string>& notices) {
-    std::vector<std::vector<Influence>> all(mesh.positions.size());
+    std::vector<std::vector<Influence>> all;
     for (int set = 0;; ++set) {
         const int joints = attribute(primitive, fmt::format("JOINTS_{}", set));
         const std::string weights_name = fmt::format("WEIGHTS_{}", set);
@@ -99,6 +100,7 @@ void read_joints(const GltfModel& gltf, const tinygltf::Primitive& primitive, co
         if (joints < 0 || weights < 0) break;
         const std::vector<float> indices = read_floats(gltf, joints);
         const std::vector<float> shares = read_finite_floats(gltf, place + "/attributes/" + weights_name, weights);
+        all.resize(mesh.positions.size());
         for (std::size_t i = 0; i < shares.size(); ++i) {
             if (shares[i] < 0.0f) {
                 fail(gltf, place + "/attributes/" + weights_name,
@@ -107,7 +109,7 @@ void read_joints(const GltfModel& gltf, const tinygltf::Primitive& primitive, co
             all[i / 4].push_back({static_cast<std::uint16_t>(indices[i]), shares[i]});
         }
     }
-    if (all.empty() || all.front().empty()) return;
+    if (all.empty()) return;
     Losses losses;
     mesh.joints.resize(all.size());
     mesh.weights.resize(all.size());

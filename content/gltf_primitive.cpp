@@ -2,6 +2,7 @@
 #include "content/gltf_model.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -22,7 +23,7 @@ namespace {
 const unsigned char* bytes_at(const GltfModel& gltf, int view, std::size_t offset) {
     gltf.expect_data(static_cast<std::size_t>(view));
     const tinygltf::BufferView& buffer_view = gltf.model.bufferViews.at(static_cast<std::size_t>(view));
-    const std::string& bytes = gltf.buffers.at(static_cast<std::size_t>(buffer_view.buffer));
+    const Bytes& bytes = gltf.buffers.at(static_cast<std::size_t>(buffer_view.buffer));
     return reinterpret_cast<const unsigned char*>(bytes.data()) + buffer_view.byteOffset + offset;
 }
 
@@ -94,12 +95,17 @@ void for_each_element(const GltfModel& gltf, int index, Visit&& visit) {
     }
 }
 
-/// Floats that lie one after the other as they are wanted: the common case, which is a copy.
-bool is_plain(const GltfModel& gltf, const tinygltf::Accessor& accessor, int given, int wanted) {
-    if (accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT || accessor.sparse.isSparse || accessor.bufferView < 0)
-        return false;
+/// The elements of a buffer that lie one after the other as Source, converted one by one: the common case, in which
+/// nothing has to be written before it is read. Nothing: they do not lie so.
+template <typename Source, typename T>
+std::optional<std::vector<T>> plain_elements(const GltfModel& gltf, const tinygltf::Accessor& accessor) {
+    if (accessor.sparse.isSparse || accessor.bufferView < 0) return std::nullopt;
     const std::size_t stride = gltf.model.bufferViews.at(static_cast<std::size_t>(accessor.bufferView)).byteStride;
-    return given == wanted && (stride == 0 || stride == sizeof(float) * static_cast<std::size_t>(wanted));
+    const unsigned char* bytes = bytes_at(gltf, accessor.bufferView, accessor.byteOffset);
+    const bool is_aligned = reinterpret_cast<std::uintptr_t>(bytes) % alignof(Source) == 0;
+    if ((stride != 0 && stride != sizeof(Source)) || !is_aligned) return std::nullopt;
+    const auto* first = reinterpret_cast<const Source*>(bytes);
+    return std::vector<T>(first, first + accessor.count);
 }
 
 template <typename T>
@@ -116,10 +122,8 @@ bool is_finite(const T& vector) {
 template <typename T>
 std::vector<T> read_finite(const GltfModel& gltf, const std::string& place, int accessor) {
     std::vector<T> result = read_elements<T>(gltf, accessor);
-    // A sum of zeros where all is finite: without a branch for each, which the compiler can do four at a time.
-    T zeros(0.0f);
-    for (const T& element : result) zeros += element * 0.0f;
-    for (std::size_t i = 0; !is_finite(zeros) && i < result.size(); ++i) {
+    const bool is_right = result.empty() || all_finite({&result[0][0], result.size() * T::length()});
+    for (std::size_t i = 0; !is_right && i < result.size(); ++i) {
         if (!is_finite(result[i])) {
             fail(gltf, place, fmt::format("element {} of accessor {} is infinite or not a number", i, accessor));
         }
@@ -273,11 +277,8 @@ std::vector<T> read_elements(const GltfModel& gltf, int index) {
     const auto bytes_each =
         static_cast<std::size_t>(tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(accessor.componentType)));
     const int given = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type));
-    if (is_plain(gltf, accessor, given, T::length())) {
-        std::vector<T> result(accessor.count);
-        std::memcpy(result.data(), bytes_at(gltf, accessor.bufferView, accessor.byteOffset),
-                    accessor.count * sizeof(T));
-        return result;
+    if (accessor.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT && given == T::length()) {
+        if (auto plain = plain_elements<T, T>(gltf, accessor)) return *std::move(plain);
     }
     const bool starts_at_zero = accessor.bufferView < 0;  // glTF 2.0: without a view, all zeros before sparse values
     std::vector<T> result(accessor.count, T(1.0f));
@@ -301,17 +302,29 @@ template std::vector<glm::vec4> read_elements<glm::vec4>(const GltfModel&, int);
 
 std::vector<std::uint32_t> read_indices(const GltfModel& gltf, int index) {
     const tinygltf::Accessor& accessor = gltf.model.accessors.at(static_cast<std::size_t>(index));
-    std::vector<std::uint32_t> result(accessor.count, 0);
-    const bool is_plain = accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT && !accessor.sparse.isSparse &&
-                          accessor.bufferView >= 0;  // indices have no stride (glTF 2.0, section 3.6.2.4)
-    if (is_plain && gltf.model.bufferViews.at(static_cast<std::size_t>(accessor.bufferView)).byteStride == 0) {
-        std::memcpy(result.data(), bytes_at(gltf, accessor.bufferView, accessor.byteOffset), 4 * accessor.count);
-        return result;
+    std::optional<std::vector<std::uint32_t>> plain;
+    switch (accessor.componentType) {
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+            plain = plain_elements<std::uint8_t, std::uint32_t>(gltf, accessor);
+            break;
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+            plain = plain_elements<std::uint16_t, std::uint32_t>(gltf, accessor);
+            break;
+        default: plain = plain_elements<std::uint32_t, std::uint32_t>(gltf, accessor); break;
     }
+    if (plain) return *std::move(plain);
+    std::vector<std::uint32_t> result(accessor.count, 0);
     for_each_element(gltf, index, [&](std::size_t element, const unsigned char* bytes) {
         result[element] = component_as_index(bytes, accessor.componentType);
     });
     return result;
+}
+
+bool all_finite(std::span<const float> values) {
+    constexpr std::uint32_t kExponent = 0x7F800000;  // all ones: infinite or not a number
+    bool is_bad = false;                             // without a branch for each, so that it goes four at a time
+    for (const float value : values) is_bad |= (std::bit_cast<std::uint32_t>(value) & kExponent) == kExponent;
+    return !is_bad;
 }
 
 std::vector<float> read_floats(const GltfModel& gltf, int index) {

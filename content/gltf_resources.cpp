@@ -84,7 +84,7 @@ std::filesystem::path path_of(const GltfDocument& document, const JsonPlace& pla
     return path;
 }
 
-std::string base64_decoded(const JsonPlace& place, std::string_view text) {
+Bytes base64_decoded(const JsonPlace& place, std::string_view text) {
     static constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     std::array<int, 256> value{};
     value.fill(-1);
@@ -94,8 +94,8 @@ std::string base64_decoded(const JsonPlace& place, std::string_view text) {
     while (!text.empty() && text.back() == '=') {
         text.remove_suffix(1);
     }
-    std::string result;
-    result.reserve(text.size() / 4 * 3 + 3);
+    Bytes result(text.size() / 4 * 3 + 3);
+    std::size_t written = 0;
     std::uint32_t bits = 0;
     int bit_count = 0;
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -107,16 +107,17 @@ std::string base64_decoded(const JsonPlace& place, std::string_view text) {
         bit_count += 6;
         if (bit_count >= 8) {
             bit_count -= 8;
-            result += static_cast<char>((bits >> bit_count) & 0xFFu);
+            result.data()[written++] = static_cast<char>((bits >> bit_count) & 0xFFu);
         }
     }
     if (text.size() % 4 == 1) {
         place.fail("is base64 that was cut off");
     }
+    result.keep(0, written);
     return result;
 }
 
-std::string data_of_uri(const JsonPlace& place, const std::string& uri) {
+Bytes data_of_uri(const JsonPlace& place, const std::string& uri) {
     const std::size_t comma = uri.find(',');
     if (comma == std::string::npos || !std::string_view(uri).substr(0, comma).ends_with(";base64")) {
         place.fail("is a data URI without ';base64,'");
@@ -125,7 +126,7 @@ std::string data_of_uri(const JsonPlace& place, const std::string& uri) {
 }
 
 /// `list` and `index`: "images", 3: where the URI stands.
-std::string bytes_of_uri(const GltfDocument& document, const JsonPlace& place, const char* list, std::size_t index) {
+Bytes bytes_of_uri(const GltfDocument& document, const JsonPlace& place, const char* list, std::size_t index) {
     const std::string& uri = place.text();
     if (uri.starts_with("data:")) {
         return data_of_uri(place, uri);
@@ -134,9 +135,9 @@ std::string bytes_of_uri(const GltfDocument& document, const JsonPlace& place, c
     return read_regular_file(path, kMostFileBytes, fmt::format("{}: /{}/{}/uri", document.source.file, list, index));
 }
 
-std::string bytes_of_buffer(GltfDocument& document, const JsonPlace& buffer, std::size_t index) {
+Bytes bytes_of_buffer(GltfDocument& document, const JsonPlace& buffer, std::size_t index) {
     const auto byte_length = static_cast<std::size_t>(buffer.at("byteLength").whole());
-    std::string bytes;
+    Bytes bytes;
     if (buffer.has("uri")) {
         bytes = bytes_of_uri(document, buffer.at("uri"), "buffers", index);
     } else if (index == 0 && document.binary_chunk) {
@@ -148,7 +149,7 @@ std::string bytes_of_buffer(GltfDocument& document, const JsonPlace& buffer, std
     if (bytes.size() < byte_length) {
         buffer.at("byteLength").fail(fmt::format("is {} but its data has only {} bytes", byte_length, bytes.size()));
     }
-    bytes.resize(byte_length);
+    bytes.keep(0, byte_length);
     return bytes;
 }
 
@@ -162,7 +163,7 @@ GltfResources read_gltf_resources(GltfDocument& document) {
     });
     for_each_object(document.root(), "images", [&](const JsonPlace& image, std::size_t index) {
         resources.images.push_back(image.has("uri") ? bytes_of_uri(document, image.at("uri"), "images", index)
-                                                    : std::string());
+                                                    : Bytes());
         image_file_bytes += resources.images.back().size();
         if (image.has("uri") && resources.images.back().empty()) {
             image.at("uri").fail("names an empty file");

@@ -183,7 +183,7 @@ JsonDocument parse_json(std::string_view text, const JsonSource& source, int dee
                                           source.advice));
 }
 
-std::string read_regular_file(const std::filesystem::path& file, std::uint64_t most_bytes, const std::string& owner) {
+Bytes read_regular_file(const std::filesystem::path& file, std::uint64_t most_bytes, const std::string& owner) {
     std::error_code code;
     const std::filesystem::file_status status = std::filesystem::status(file, code);
     if (!std::filesystem::exists(status)) {
@@ -205,7 +205,7 @@ std::string read_regular_file(const std::filesystem::path& file, std::uint64_t m
                          : fmt::format("{}: {} has {} bytes, more than the {} that are read; split or compress it",
                                        owner, file.string(), bytes, most_bytes));
     }
-    std::string content(static_cast<std::size_t>(bytes), '\0');
+    Bytes content(static_cast<std::size_t>(bytes));
     std::ifstream stream(file, std::ios::binary);
     stream.read(content.data(), static_cast<std::streamsize>(content.size()));
     if (!stream || static_cast<std::uintmax_t>(stream.gcount()) != bytes) {

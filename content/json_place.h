@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "content/bytes.h"
 #include "content/json_value.h"
 
 namespace halfframe::content {
@@ -92,7 +93,7 @@ private:
 
 /// A whole regular file of at most `most_bytes`. Missing, a folder, a pipe, too big: Error(input). `owner` starts the
 /// message: "FILE" or "FILE: POINTER".
-[[nodiscard]] std::string read_regular_file(const std::filesystem::path& file, std::uint64_t most_bytes,
-                                            const std::string& owner);
+[[nodiscard]] Bytes read_regular_file(const std::filesystem::path& file, std::uint64_t most_bytes,
+                                      const std::string& owner);
 
 }  // namespace halfframe::content

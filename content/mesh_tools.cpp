@@ -22,6 +22,27 @@ glm::vec3 unit_or(const glm::vec3& v, const glm::vec3& otherwise) {
     return glm::normalize(v / largest);
 }
 
+/// What is nearer to unit, or to orthogonal, than this is so but for the rounding of floats, which would only be
+/// rounded again.
+constexpr float kRoundingOfUnit = 5e-7f;
+
+bool is_unit(const glm::vec3& v) { return std::abs(glm::dot(v, v) - 1.0f) < kRoundingOfUnit; }
+
+/// Calls mend(i) for each i below `count` that is not right. Whole blocks are asked first, without a branch for each,
+/// so that several go at a time: most meshes are right.
+template <typename IsRight, typename Mend>
+void for_each_off(std::size_t count, IsRight&& is_right, Mend&& mend) {
+    constexpr std::size_t kBlock = 64;
+    for (std::size_t start = 0; start < count; start += kBlock) {
+        const std::size_t end = std::min(start + kBlock, count);
+        unsigned off = 0;
+        for (std::size_t i = start; i < end; ++i) off |= is_right(i) ? 0u : 1u;
+        for (std::size_t i = start; off != 0 && i < end; ++i) {
+            if (!is_right(i)) mend(i);
+        }
+    }
+}
+
 /// Twice the area of the face times its normal, in double: products of large coordinates leave float.
 glm::vec3 face_normal_times_area(const Mesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     const glm::dvec3 origin(mesh.positions[a]);
@@ -128,13 +149,13 @@ Mesh flat_shaded(const Mesh& mesh) {
 std::size_t repair_normals(Mesh& mesh) {
     std::vector<bool> bad(mesh.normals.size(), false);
     std::size_t bad_count = 0;
-    for (std::size_t i = 0; i < mesh.normals.size(); ++i) {
-        // 5e-7: unit but for the rounding of floats, which would only be rounded again.
-        if (std::abs(glm::dot(mesh.normals[i], mesh.normals[i]) - 1.0f) < 5e-7f) continue;
-        mesh.normals[i] = unit_or(mesh.normals[i], glm::vec3(0.0f));
-        bad[i] = mesh.normals[i] == glm::vec3(0.0f);
-        bad_count += bad[i] ? 1 : 0;
-    }
+    for_each_off(
+        mesh.normals.size(), [&](std::size_t i) { return is_unit(mesh.normals[i]); },
+        [&](std::size_t i) {
+            mesh.normals[i] = unit_or(mesh.normals[i], glm::vec3(0.0f));
+            bad[i] = mesh.normals[i] == glm::vec3(0.0f);
+            bad_count += bad[i] ? 1 : 0;
+        });
     if (bad_count == 0) {
         return 0;
     }
@@ -206,19 +227,19 @@ std::vector<glm::vec2> mapped(const std::vector<glm::vec2>& uv, const UvMapping&
 }
 
 void repair_tangents(Mesh& mesh) {
-    for (std::size_t i = 0; i < mesh.tangents.size(); ++i) {
-        const glm::vec3 as_it_is(mesh.tangents[i]);
-        const bool unit_already = std::abs(glm::dot(as_it_is, as_it_is) - 1.0f) < 5e-7f;
-        if (unit_already && std::abs(glm::dot(as_it_is, mesh.normals[i])) < 5e-7f &&
-            std::abs(mesh.tangents[i].w) == 1.0f) {
-            continue;
-        }
+    const auto is_right = [&](std::size_t i) {
+        const glm::vec4& tangent = mesh.tangents[i];
+        return is_unit(glm::vec3(tangent)) &
+               (std::abs(glm::dot(glm::vec3(tangent), mesh.normals[i])) < kRoundingOfUnit) &
+               (std::abs(tangent.w) == 1.0f);
+    };
+    for_each_off(mesh.tangents.size(), is_right, [&](std::size_t i) {
         const glm::vec3 given(unit_or(glm::vec3(mesh.tangents[i]), glm::vec3(0.0f)));
         const glm::vec3 flat = given - mesh.normals[i] * glm::dot(mesh.normals[i], given);
         // Under 0.01 the tangent is the normal but for rounding: its direction means nothing.
         const glm::vec3 unit = glm::length(flat) > 0.01f ? glm::normalize(flat) : some_tangent(mesh.normals[i]);
         mesh.tangents[i] = glm::vec4(unit, mesh.tangents[i].w < 0.0f ? -1.0f : 1.0f);
-    }
+    });
 }
 
 Mesh mirrored(const Mesh& mesh) {

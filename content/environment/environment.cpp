@@ -63,10 +63,10 @@ StoredEnvironment filtered(const Equirectangular& picture, const std::string& na
     const Irradiance diffuse = irradiance(light.fine);
     for (std::size_t i = 0; i < 9; ++i) result.map.irradiance[i] = glm::vec3(diffuse.terms[i]);
     if (diffuse.window > 0.0) {
-        result.notices.push_back(
-            fmt::format("{}: its light comes so much from one side that nine terms of its diffuse part would darken the "
-                        "other too much; it was softened (window {:.4f}, first band x {:.3f}, second x {:.3f})",
-                        name, diffuse.window, 1.0 / (1.0 + 4.0 * diffuse.window), 1.0 / (1.0 + 36.0 * diffuse.window)));
+        result.notices.push_back(fmt::format(
+            "{}: its light comes so much from one side that nine terms of its diffuse part would darken the "
+            "other too much; it was softened (window {:.4f}, first band x {:.3f}, second x {:.3f})",
+            name, diffuse.window, 1.0 / (1.0 + 4.0 * diffuse.window), 1.0 / (1.0 + 36.0 * diffuse.window)));
     }
     return result;
 }
@@ -114,7 +114,7 @@ LoadedEnvironment environment(const std::string& name_or_file, const Environment
                                               ".exr file",
                                               name_or_file, did_you_mean(name_or_file, names), fmt::join(names, ", ")));
     }
-    const std::string bytes = read_regular_file(file, kMostPictureBytes, name_or_file);
+    const std::string bytes(std::string_view(read_regular_file(file, kMostPictureBytes, name_or_file)));
     // The name is in the map and in its notices, so it decides the result too.
     return kept(name_or_file + '\0' + bytes, options, [&] {
         std::vector<std::string> notices;

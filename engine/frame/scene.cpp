@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
+#include <vector>
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -76,19 +78,41 @@ void set_depth_range(Camera& camera, const glm::vec3& eye, const glm::vec3& forw
     camera.near_m = std::clamp(nearest * 0.9f, camera.far_m * kSmallestNearOverFar, camera.far_m * 0.5f);
 }
 
+/// Four points at a time, twelve numbers side by side: three instructions for what a point alone takes as many.
+Box box_of(std::span<const glm::vec3> points) {
+    std::array<float, 12> low{}, high{};
+    low.fill(Box{}.low.x);
+    high.fill(Box{}.high.x);
+    std::size_t i = 0;
+    for (; i + 4 <= points.size(); i += 4) {
+        const float* numbers = &points[i].x;
+        for (std::size_t k = 0; k < low.size(); ++k) {
+            low[k] = std::min(low[k], numbers[k]);
+            high[k] = std::max(high[k], numbers[k]);
+        }
+    }
+    Box box;
+    for (std::size_t k = 0; k < low.size(); k += 3) {
+        box.low = glm::min(box.low, glm::vec3(low[k], low[k + 1], low[k + 2]));
+        box.high = glm::max(box.high, glm::vec3(high[k], high[k + 1], high[k + 2]));
+    }
+    for (; i < points.size(); ++i) box.add(points[i]);
+    return box;
+}
+
 }  // namespace
 
 Box local_box(const Mesh& mesh) {
+    if (mesh.indices.empty()) return box_of(mesh.positions);
+    std::vector<char> is_used(mesh.positions.size(), 0);
+    for (const std::uint32_t index : mesh.indices) {
+        expect(index < is_used.size(), "an index of a mesh lies past its last vertex");
+        is_used[index] = 1;
+    }
+    if (std::ranges::find(is_used, 0) == is_used.end()) return box_of(mesh.positions);
     Box box;
-    if (mesh.indices.empty()) {
-        for (const glm::vec3& position : mesh.positions) {
-            box.add(position);
-        }
-    } else {
-        for (const std::uint32_t index : mesh.indices) {
-            expect(index < mesh.positions.size(), "an index of a mesh lies past its last vertex");
-            box.add(mesh.positions[index]);
-        }
+    for (std::size_t i = 0; i < is_used.size(); ++i) {
+        if (is_used[i] != 0) box.add(mesh.positions[i]);
     }
     return box;
 }

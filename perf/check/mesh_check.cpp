@@ -57,7 +57,7 @@ std::vector<glm::vec3> normals_of(const content::JsonPlace& root, const content:
     const auto size = static_cast<std::size_t>(content::component_bytes(type));
     const std::size_t stride = view.has("byteStride") ? number(view, "byteStride") : 3 * size;
     const std::size_t start = number(view, "byteOffset") + number(accessor, "byteOffset");
-    const std::string& bytes = resources.buffers[number(view, "buffer")];
+    const std::string_view bytes = resources.buffers[number(view, "buffer")];
     for (std::size_t i = 0; i < number(accessor, "count"); ++i) {
         glm::vec3 normal(0.0f);
         for (int k = 0; k < 3; ++k) {

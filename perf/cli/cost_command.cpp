@@ -307,7 +307,7 @@ private:
         if (!trace_.empty() || !html_.empty() || all_cameras_ || !tiers_.empty())
             throw Error(Fault::usage,
                         "--trace, --html, --all-cameras and --tiers are of a scene's frame; a shader has one pass");
-        const std::string text = content::read_regular_file(input_, kMostShaderBytes, input_);
+        const std::string text(std::string_view(content::read_regular_file(input_, kMostShaderBytes, input_)));
         cost::UserShaderRequest request{.file = input_, .text = text, .profiles = loaded_};
         for (const std::string& words : textures_) request.textures.push_back(cost::parse_user_texture(words));
         const auto [width, height] = parsed_size(options_);

@@ -355,11 +355,15 @@ bool has_alpha(const Image& image) {
     return false;
 }
 
+std::size_t compressed_bytes(int width, int height, bool with_alpha) {
+    return static_cast<std::size_t>((width + 3) / 4) * static_cast<std::size_t>((height + 3) / 4) *
+           (with_alpha ? 16 : 8);
+}
+
 CompressedImage compressed(const Image& image, bool with_alpha) {
     CompressedImage out{.width = image.width, .height = image.height, .has_alpha = with_alpha, .blocks = {}};
     const std::size_t bytes = out.has_alpha ? 16 : 8;
-    out.blocks.resize(static_cast<std::size_t>((image.width + 3) / 4) *
-                      static_cast<std::size_t>((image.height + 3) / 4) * bytes);
+    out.blocks.resize(compressed_bytes(image.width, image.height, with_alpha));
     std::uint8_t* to = out.blocks.data();
     for (int y = 0; y < image.height; y += 4) {
         for (int x = 0; x < image.width; x += 4, to += bytes)

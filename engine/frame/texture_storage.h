@@ -73,6 +73,8 @@ struct CompressedImage {
     std::vector<std::uint8_t> blocks;
 };
 [[nodiscard]] CompressedImage compressed(const Image& image, bool with_alpha);
+/// What its blocks take [bytes].
+[[nodiscard]] std::size_t compressed_bytes(int width, int height, bool with_alpha);
 [[nodiscard]] Image decompressed(const CompressedImage& image);
 /// Of the colours, in display codes of 0..255: root of the mean square, and the worst.
 struct TexelError {

@@ -46,6 +46,28 @@ std::set<int> color_images(const Scene& scene) {
     return images;
 }
 
+struct Size {
+    int width = 0;
+    int height = 0;
+};
+
+/// Of level 0 and all smaller ones.
+std::vector<Size> level_sizes(const Image& image) {
+    std::vector<Size> sizes{{image.width, image.height}};
+    while (sizes.back().width > 1 || sizes.back().height > 1)
+        sizes.push_back({std::max(sizes.back().width / 2, 1), std::max(sizes.back().height / 2, 1)});
+    return sizes;
+}
+
+/// What compressing loses of the level, which is the largest that is kept.
+TexelError compression_error(const Image& image, const std::vector<Size>& sizes, std::size_t level, bool with_alpha) {
+    Image smaller;
+    for (std::size_t i = 1; i <= level; ++i)
+        smaller = reduced(i == 1 ? image : smaller, sizes[i].width, sizes[i].height, TexelKind::color);
+    const Image& kept = level == 0 ? image : smaller;
+    return texel_error(kept, decompressed(compressed(kept, with_alpha)));
+}
+
 void add_textures(const Scene& scene, const Request& request, StorageFigures& figures) {
     const std::vector<int> dropped = request.most_texture_bytes ? levels_to_drop(scene, *request.most_texture_bytes)
                                                                 : std::vector<int>(scene.images.size(), 0);
@@ -53,24 +75,22 @@ void add_textures(const Scene& scene, const Request& request, StorageFigures& fi
         const auto at = static_cast<std::size_t>(index);
         const Image& image = scene.images[at];
         ++figures.color_images;
-        std::vector<Image> levels = mip_chain(image, TexelKind::color, std::nullopt);
-        for (const Image& level : levels) figures.texture_bytes_before += level.rgba.size();
-        std::size_t first =
-            std::min<std::size_t>(static_cast<std::size_t>(std::max(dropped[at], 0)), levels.size() - 1);
-        while (request.largest_texture && first + 1 < levels.size() &&
-               std::max(levels[first].width, levels[first].height) > *request.largest_texture) {
+        const std::vector<Size> sizes = level_sizes(image);
+        for (const Size& size : sizes)
+            figures.texture_bytes_before +=
+                4 * static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
+        std::size_t first = std::min<std::size_t>(static_cast<std::size_t>(std::max(dropped[at], 0)), sizes.size() - 1);
+        while (request.largest_texture && first + 1 < sizes.size() &&
+               std::max(sizes[first].width, sizes[first].height) > *request.largest_texture) {
             ++first;
         }
         figures.smaller_images += first > 0 ? 1u : 0u;
         const bool with_alpha = has_alpha(image);
-        for (std::size_t level = first; level < levels.size(); ++level) {
-            const CompressedImage blocks = compressed(levels[level], with_alpha);
-            figures.texture_bytes_after += blocks.blocks.size();
-            if (level > first) continue;
-            const TexelError error = texel_error(levels[level], decompressed(blocks));
-            keep_worst(figures.texture_rms_codes, error.rms_codes, image.name);
-            keep_worst(figures.texture_worst_codes, error.worst_codes, image.name);
-        }
+        for (std::size_t level = first; level < sizes.size(); ++level)
+            figures.texture_bytes_after += compressed_bytes(sizes[level].width, sizes[level].height, with_alpha);
+        const TexelError error = compression_error(image, sizes, first, with_alpha);
+        keep_worst(figures.texture_rms_codes, error.rms_codes, image.name);
+        keep_worst(figures.texture_worst_codes, error.worst_codes, image.name);
     }
 }
 

@@ -1,7 +1,9 @@
 // What a material is at each of its texels, and which rules it breaks there.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "engine/frame/scene.h"
@@ -36,6 +38,7 @@ public:
     [[nodiscard]] int width() const { return width_; }
     [[nodiscard]] int height() const { return height_; }
     [[nodiscard]] Texel at(int x, int y) const;
+    [[nodiscard]] double alpha_at(int x, int y) const;
     /// Bit i: rule i of the texel rules is broken.
     [[nodiscard]] std::uint32_t broken(const Texel& texel) const;
     /// The texels that count: some triangle with this material reaches them, and they are not cut out or invisible.
@@ -43,7 +46,28 @@ public:
     [[nodiscard]] std::vector<std::uint8_t> reached() const;
 
 private:
-    [[nodiscard]] glm::dvec4 value(const Texture& texture, int x, int y) const;
+    /// A texture on the grid.
+    struct Source {
+        const Image* image = nullptr;  ///< none: 1 everywhere
+        bool fills_grid = false;       ///< as large as the grid
+        const std::array<double, 256>* value_of_byte = nullptr;
+    };
+    /// The code of a colour that was met before: a power for each of millions of texels is most of a check.
+    struct KnownCode {
+        std::uint32_t color = 0;  ///< the texel's bytes
+        bool is_known = false;
+        double code = 0.0;
+    };
+
+    [[nodiscard]] Source source_of(const Texture& texture) const;
+    [[nodiscard]] const std::uint8_t* bytes(const Source& source, int x, int y) const;
+    [[nodiscard]] static glm::dvec4 value(const Source& source, const std::uint8_t* bytes);
+    [[nodiscard]] glm::dvec4 value(const Source& source, int x, int y) const;
+    /// The sRGB code of `factor` times the colour in `bytes`.
+    [[nodiscard]] double code_of(const Source& source, const std::uint8_t* bytes, const glm::dvec3& factor,
+                                 std::vector<KnownCode>& known) const;
+    [[nodiscard]] bool shines(int x, int y) const;
+    [[nodiscard]] double dielectric_code(int x, int y) const;
     void cover(const Mesh& mesh, const UvMapping& mapping, std::vector<std::uint8_t>& mask) const;
 
     const Scene& scene_;
@@ -51,6 +75,12 @@ private:
     const Thresholds& thresholds_;
     int width_ = 1;
     int height_ = 1;
+    Source base_, metallic_roughness_, specular_smoothness_, specular_color_, specular_, emissive_;
+    std::array<double, 256> smoothness_{};  ///< by the byte that says it
+    double darkest_light_ = 0.0;            ///< of an albedo by the charts
+    std::optional<bool> shines_;            ///< where it is the same at all texels, as the next
+    std::optional<double> dielectric_code_;
+    mutable std::vector<KnownCode> base_codes_, specular_codes_;  ///< by a hash of the colour; empty: few texels
 };
 
 /// `uv` as a texture with this mapping sees it.

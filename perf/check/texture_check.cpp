@@ -1,5 +1,6 @@
 // Textures: sizes, mipmaps, wrapping, duplicates, alpha, normal maps.
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <map>
 #include <set>
@@ -127,11 +128,14 @@ private:
 
     void check_normal_map(const Use& use) {
         const Image& picture = image(use.texture->image);
+        std::array<double, 256> of_byte{};
+        for (std::size_t byte = 0; byte < of_byte.size(); ++byte)
+            of_byte[byte] = static_cast<double>(byte) / 127.5 - 1.0;
         double length = 0.0;
         std::size_t inward = 0;
         const std::size_t count = picture.rgba.size() / 4;
         for (std::size_t texel = 0; texel < count; ++texel) {
-            const auto component = [&](std::size_t channel) { return picture.rgba[4 * texel + channel] / 127.5 - 1.0; };
+            const auto component = [&](std::size_t channel) { return of_byte[picture.rgba[4 * texel + channel]]; };
             length += glm::length(glm::dvec3(component(0), component(1), component(2)));
             inward += picture.rgba[4 * texel + 2] < 128 ? 1u : 0u;
         }

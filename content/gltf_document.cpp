@@ -40,18 +40,19 @@ std::uint32_t little_endian_32(std::string_view bytes, std::size_t at) {
 }
 
 /// Length of the GLB after comparing it with the length of the file.
-std::size_t checked_glb_length(GltfDocument& document, std::string_view bytes) {
+std::size_t checked_glb_length(GltfDocument& document, const GltfBuffer& bytes) {
     if (bytes.size() < kGlbHeaderBytes) {
         bad_glb(document, bytes.size(), "the GLB header is cut off");
     }
-    const std::uint32_t version = little_endian_32(bytes, 4);
+    const std::string_view header = bytes.part(0, kGlbHeaderBytes);
+    const std::uint32_t version = little_endian_32(header, 4);
     if (version == 1) {
         is_version_1(document, "byte 4");
     }
     if (version != 2) {
         bad_glb(document, 4, fmt::format("the GLB has version {} and only version 2 is read", version));
     }
-    const std::size_t length = little_endian_32(bytes, 8);
+    const std::size_t length = little_endian_32(header, 8);
     if (length > bytes.size()) {
         bad_glb(document, 8, fmt::format("the GLB says it has {} bytes but the file has {}", length, bytes.size()));
     }
@@ -66,12 +67,16 @@ std::size_t checked_glb_length(GltfDocument& document, std::string_view bytes) {
 }
 
 /// Where the JSON text and the binary chunk of a GLB are.
+struct Range {
+    std::size_t start = 0;
+    std::size_t size = 0;
+};
 struct GlbChunks {
-    std::string_view json;
-    std::optional<std::string_view> binary;
+    Range json;
+    std::optional<Range> binary;
 };
 
-GlbChunks split_glb(GltfDocument& document, std::string_view bytes) {
+GlbChunks split_glb(GltfDocument& document, const GltfBuffer& bytes) {
     const std::size_t length = checked_glb_length(document, bytes);
     GlbChunks chunks;
     std::size_t at = kGlbHeaderBytes;
@@ -79,8 +84,9 @@ GlbChunks split_glb(GltfDocument& document, std::string_view bytes) {
         if (length - at < kChunkHeaderBytes) {
             bad_glb(document, at, "the header of a chunk is cut off");
         }
-        const std::size_t chunk_bytes = little_endian_32(bytes, at);
-        const std::uint32_t type = little_endian_32(bytes, at + 4);
+        const std::string_view header = bytes.part(at, kChunkHeaderBytes);
+        const std::size_t chunk_bytes = little_endian_32(header, 0);
+        const std::uint32_t type = little_endian_32(header, 4);
         if (chunk_bytes > length - at - kChunkHeaderBytes) {
             bad_glb(document, at,
                     fmt::format("chunk {} says it has {} bytes but {} are left", chunk, chunk_bytes,
@@ -89,7 +95,7 @@ GlbChunks split_glb(GltfDocument& document, std::string_view bytes) {
         if (chunk_bytes % 4 != 0) {
             bad_glb(document, at, fmt::format("chunk {} has {} bytes, not a multiple of 4", chunk, chunk_bytes));
         }
-        const std::string_view content = bytes.substr(at + kChunkHeaderBytes, chunk_bytes);
+        const Range content{at + kChunkHeaderBytes, chunk_bytes};
         if ((chunk == 0) != (type == kJsonChunk)) {
             bad_glb(document, at + 4, chunk == 0 ? "the first chunk is not JSON" : "there is a second JSON chunk");
         }
@@ -212,22 +218,21 @@ std::optional<std::size_t> index_in(const JsonPlace& owner, std::string_view key
 GltfDocument read_gltf_document(const std::filesystem::path& file) {
     GltfDocument document{
         .file = file, .source = {file.string(), kAdvice}, .json = {}, .binary_chunk = {}, .notices = {}};
-    Bytes bytes = read_regular_file(file, kMostFileBytes, file.string());
-    const bool binary = std::string_view(bytes).starts_with("glTF");
+    GltfBuffer bytes(RegularFile(file, kMostFileBytes, file.string()));
+    const bool binary = bytes.size() >= 4 && bytes.part(0, 4) == "glTF";
     if (!binary && file.extension() == ".glb") {
         bad_glb(document, 0, "a GLB starts with the letters glTF and this file does not");
     }
-    const GlbChunks chunks = binary ? split_glb(document, bytes) : GlbChunks{bytes, std::nullopt};
-    const std::string_view text = chunks.json;
-    if (text.size() > kMostJsonBytes) {
+    const GlbChunks chunks = binary ? split_glb(document, bytes) : GlbChunks{{0, bytes.size()}, std::nullopt};
+    if (chunks.json.size > kMostJsonBytes) {
         throw Error(Fault::input,
                     fmt::format("{}: the JSON has {} bytes, more than the {} that are read; move its data to "
                                 "separate files",
-                                document.source.file, text.size(), kMostJsonBytes));
+                                document.source.file, chunks.json.size, kMostJsonBytes));
     }
-    document.json = parse_json(text, document.source);
-    if (chunks.binary) {  // in the memory it was read into
-        bytes.keep(static_cast<std::size_t>(chunks.binary->data() - bytes.data()), chunks.binary->size());
+    document.json = parse_json(bytes.copy(chunks.json.start, chunks.json.size), document.source);
+    if (chunks.binary) {
+        bytes.keep(chunks.binary->start, chunks.binary->size);
         document.binary_chunk = std::move(bytes);
     }
     return document;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "content/gltf_buffer.h"
 #include "content/json_place.h"
 
 namespace halfframe::content {
@@ -36,7 +37,7 @@ struct GltfDocument {
     std::filesystem::path file;
     JsonSource source;
     JsonDocument json;
-    std::optional<Bytes> binary_chunk;  ///< GLB only
+    std::optional<GltfBuffer> binary_chunk;  ///< GLB only
     std::vector<std::string> notices;
     std::optional<std::size_t> chosen_scene;    ///< in place of the default one
     std::optional<std::size_t> chosen_variant;  ///< of the materials (KHR_materials_variants)
@@ -64,7 +65,7 @@ struct GltfResources {
         std::size_t view = 0;
         std::size_t buffer = 0;
     };
-    std::vector<Bytes> buffers;  ///< of the document, then those of unpacked views
+    std::vector<GltfBuffer> buffers;  ///< of the document, then those of unpacked views
     std::vector<Bytes> images;
     std::vector<UnpackedView> unpacked_views;
 };

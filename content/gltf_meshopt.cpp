@@ -114,18 +114,18 @@ void decode_meshopt(const GltfDocument& document, GltfResources& resources) {
         const auto place = meshopt_of(view);
         if (!place) continue;
         const Stream stream = stream_of(*place);
-        const std::string_view source = resources.buffers.at(stream.buffer);
+        const GltfBuffer& source = resources.buffers.at(stream.buffer);
         if (source.size() < stream.offset + stream.bytes) {
             place->at("buffer").fail(fmt::format("buffer {} has no data", stream.buffer));
         }
         Bytes decoded(stream.stride * stream.count);
-        const auto* bytes = reinterpret_cast<const unsigned char*>(source.data()) + stream.offset;
+        const auto* bytes = reinterpret_cast<const unsigned char*>(source.part(stream.offset, stream.bytes).data());
         if (decode(stream, bytes, decoded) != 0) {
             place->fail("holds a stream that is damaged or of a newer kind", "compress the file again");
         }
         unfilter(stream, decoded);
         resources.unpacked_views.push_back({i, resources.buffers.size()});
-        resources.buffers.push_back(std::move(decoded));
+        resources.buffers.emplace_back(std::move(decoded));
     }
 }
 

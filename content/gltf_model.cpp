@@ -280,15 +280,13 @@ void decode_images(const GltfDocument& document, GltfResources& resources, const
     for (const std::size_t at : used_images) {
         const JsonPlace place = document.root().at("images").at(at);
         const int view = gltf.model.images.at(at).bufferView;
-        std::string_view bytes = resources.images.at(at);
+        Bytes bytes = std::move(resources.images.at(at));
         if (view >= 0) {
             gltf.expect_data(static_cast<std::size_t>(view));
             const tinygltf::BufferView& range = gltf.model.bufferViews.at(static_cast<std::size_t>(view));
-            bytes = std::string_view(gltf.buffers.at(static_cast<std::size_t>(range.buffer)))
-                        .substr(range.byteOffset, range.byteLength);
+            bytes = gltf.buffers.at(static_cast<std::size_t>(range.buffer)).copy(range.byteOffset, range.byteLength);
         }
         gltf.images[at] = decoded(place, bytes, pixels);
-        resources.images[at] = {};
     }
 }
 

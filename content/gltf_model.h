@@ -44,7 +44,7 @@ struct GltfModel {
     JsonSource source;
     tinygltf::Model model;  ///< its buffers and images have no bytes; its nodes are the next ones
     std::vector<GltfNode> nodes;
-    std::vector<Bytes> buffers;  ///< empty: without data
+    std::vector<GltfBuffer> buffers;  ///< empty: without data
     std::vector<DecodedImage> images;
 
     /// Error(input) when the buffer behind the view has no data.

@@ -20,11 +20,20 @@ namespace {
     throw Error(Fault::input, fmt::format("{}: {}: {}; {}", gltf.source.file, place, what, gltf.source.advice));
 }
 
-const unsigned char* bytes_at(const GltfModel& gltf, int view, std::size_t offset) {
+/// Where a range of bytes lies.
+struct Place {
+    const GltfBuffer& buffer;
+    std::size_t start;
+};
+
+Place place_of(const GltfModel& gltf, int view, std::size_t offset) {
     gltf.expect_data(static_cast<std::size_t>(view));
     const tinygltf::BufferView& buffer_view = gltf.model.bufferViews.at(static_cast<std::size_t>(view));
-    const Bytes& bytes = gltf.buffers.at(static_cast<std::size_t>(buffer_view.buffer));
-    return reinterpret_cast<const unsigned char*>(bytes.data()) + buffer_view.byteOffset + offset;
+    return {gltf.buffers.at(static_cast<std::size_t>(buffer_view.buffer)), buffer_view.byteOffset + offset};
+}
+
+const unsigned char* unsigned_bytes(std::string_view bytes) {
+    return reinterpret_cast<const unsigned char*>(bytes.data());
 }
 
 template <typename T>
@@ -71,20 +80,25 @@ void for_each_element(const GltfModel& gltf, int index, Visit&& visit) {
         static_cast<std::size_t>(tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type)));
     if (accessor.bufferView >= 0) {
         const std::size_t given = gltf.model.bufferViews.at(static_cast<std::size_t>(accessor.bufferView)).byteStride;
-        const unsigned char* bytes = bytes_at(gltf, accessor.bufferView, accessor.byteOffset);
-        for (std::size_t i = 0; i < accessor.count; ++i) {
-            visit(i, bytes + i * (given == 0 ? tight : given));
-        }
+        const std::size_t stride = given == 0 ? tight : given;
+        const Place place = place_of(gltf, accessor.bufferView, accessor.byteOffset);
+        const unsigned char* bytes =
+            unsigned_bytes(place.buffer.part(place.start, stride * (accessor.count - 1) + tight));
+        for (std::size_t i = 0; i < accessor.count; ++i) visit(i, bytes + i * stride);
     }
     if (accessor.sparse.isSparse) {
         const auto& sparse = accessor.sparse;
         const auto index_bytes = static_cast<std::size_t>(
             tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(sparse.indices.componentType)));
-        const unsigned char* indices =
-            bytes_at(gltf, sparse.indices.bufferView, static_cast<std::size_t>(sparse.indices.byteOffset));
-        const unsigned char* values =
-            bytes_at(gltf, sparse.values.bufferView, static_cast<std::size_t>(sparse.values.byteOffset));
-        for (std::size_t i = 0; i < static_cast<std::size_t>(sparse.count); ++i) {
+        const auto count = static_cast<std::size_t>(sparse.count);
+        const auto copy_of = [&](int view, int offset, std::size_t size) {
+            const Place place = place_of(gltf, view, static_cast<std::size_t>(offset));
+            return place.buffer.copy(place.start, size);
+        };
+        const Bytes index_copy = copy_of(sparse.indices.bufferView, sparse.indices.byteOffset, count * index_bytes);
+        const Bytes value_copy = copy_of(sparse.values.bufferView, sparse.values.byteOffset, count * tight);
+        const unsigned char *indices = unsigned_bytes(index_copy), *values = unsigned_bytes(value_copy);
+        for (std::size_t i = 0; i < count; ++i) {
             const std::uint32_t element = component_as_index(indices + i * index_bytes, sparse.indices.componentType);
             if (element >= accessor.count) {
                 fail(gltf, fmt::format("/accessors/{}/sparse/indices", index),
@@ -101,11 +115,19 @@ template <typename Source, typename T>
 std::optional<std::vector<T>> plain_elements(const GltfModel& gltf, const tinygltf::Accessor& accessor) {
     if (accessor.sparse.isSparse || accessor.bufferView < 0) return std::nullopt;
     const std::size_t stride = gltf.model.bufferViews.at(static_cast<std::size_t>(accessor.bufferView)).byteStride;
-    const unsigned char* bytes = bytes_at(gltf, accessor.bufferView, accessor.byteOffset);
-    const bool is_aligned = reinterpret_cast<std::uintptr_t>(bytes) % alignof(Source) == 0;
-    if ((stride != 0 && stride != sizeof(Source)) || !is_aligned) return std::nullopt;
-    const auto* first = reinterpret_cast<const Source*>(bytes);
-    return std::vector<T>(first, first + accessor.count);
+    if (stride != 0 && stride != sizeof(Source)) return std::nullopt;
+    const Place place = place_of(gltf, accessor.bufferView, accessor.byteOffset);
+    std::vector<T> result;
+    result.reserve(accessor.count);
+    bool is_aligned = true;
+    place.buffer.for_each_piece(
+        place.start, accessor.count * sizeof(Source), sizeof(Source), [&](std::string_view piece) {
+            is_aligned = is_aligned && reinterpret_cast<std::uintptr_t>(piece.data()) % alignof(Source) == 0;
+            if (!is_aligned) return;
+            const auto* first = reinterpret_cast<const Source*>(piece.data());
+            result.insert(result.end(), first, first + piece.size() / sizeof(Source));
+        });
+    return is_aligned ? std::optional(std::move(result)) : std::nullopt;
 }
 
 template <typename T>
@@ -321,10 +343,12 @@ std::vector<std::uint32_t> read_indices(const GltfModel& gltf, int index) {
 }
 
 bool all_finite(std::span<const float> values) {
-    constexpr std::uint32_t kExponent = 0x7F800000;  // all ones: infinite or not a number
-    bool is_bad = false;                             // without a branch for each, so that it goes four at a time
-    for (const float value : values) is_bad |= (std::bit_cast<std::uint32_t>(value) & kExponent) == kExponent;
-    return !is_bad;
+    // One more than an exponent of ones, which is infinite or no number, sets the highest bit: nothing to branch on, so
+    // that four go at a time.
+    constexpr std::uint32_t kExponent = 0x7F800000, kOne = 0x00800000, kHighest = 0x80000000;
+    std::uint32_t bits = 0;
+    for (const float value : values) bits |= (std::bit_cast<std::uint32_t>(value) & kExponent) + kOne;
+    return (bits & kHighest) == 0;
 }
 
 std::vector<float> read_floats(const GltfModel& gltf, int index) {

@@ -135,11 +135,11 @@ Bytes bytes_of_uri(const GltfDocument& document, const JsonPlace& place, const c
     return read_regular_file(path, kMostFileBytes, fmt::format("{}: /{}/{}/uri", document.source.file, list, index));
 }
 
-Bytes bytes_of_buffer(GltfDocument& document, const JsonPlace& buffer, std::size_t index) {
+GltfBuffer bytes_of_buffer(GltfDocument& document, const JsonPlace& buffer, std::size_t index) {
     const auto byte_length = static_cast<std::size_t>(buffer.at("byteLength").whole());
-    Bytes bytes;
+    GltfBuffer bytes;
     if (buffer.has("uri")) {
-        bytes = bytes_of_uri(document, buffer.at("uri"), "buffers", index);
+        bytes = GltfBuffer(bytes_of_uri(document, buffer.at("uri"), "buffers", index));
     } else if (index == 0 && document.binary_chunk) {
         bytes = std::move(*document.binary_chunk);
         document.binary_chunk.reset();

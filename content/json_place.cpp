@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <optional>
 #include <vector>
 
@@ -183,35 +182,46 @@ JsonDocument parse_json(std::string_view text, const JsonSource& source, int dee
                                           source.advice));
 }
 
-Bytes read_regular_file(const std::filesystem::path& file, std::uint64_t most_bytes, const std::string& owner) {
+RegularFile::RegularFile(const std::filesystem::path& file, std::uint64_t most_bytes, std::string owner)
+    : name_(file.string()), owner_(std::move(owner)) {
     std::error_code code;
     const std::filesystem::file_status status = std::filesystem::status(file, code);
     if (!std::filesystem::exists(status)) {
-        throw Error(Fault::input,
-                    fmt::format("{}: there is no file {}; check the name and the folder", owner, file.string()));
+        throw Error(Fault::input, fmt::format("{}: there is no file {}; check the name and the folder", owner_, name_));
     }
     if (std::filesystem::is_directory(status)) {
-        throw Error(Fault::input, fmt::format("{}: {} is a folder; name a file in it", owner, file.string()));
+        throw Error(Fault::input, fmt::format("{}: {} is a folder; name a file in it", owner_, name_));
     }
     if (!std::filesystem::is_regular_file(status)) {
         throw Error(Fault::input,
-                    fmt::format("{}: {} is not a regular file; copy its content into one", owner, file.string()));
+                    fmt::format("{}: {} is not a regular file; copy its content into one", owner_, name_));
     }
     const std::uintmax_t bytes = std::filesystem::file_size(file, code);
     if (code || bytes > most_bytes) {
-        throw Error(Fault::input,
-                    code ? fmt::format("{}: {} cannot be measured ({}); check its permissions", owner, file.string(),
-                                       code.message())
-                         : fmt::format("{}: {} has {} bytes, more than the {} that are read; split or compress it",
-                                       owner, file.string(), bytes, most_bytes));
+        throw Error(
+            Fault::input,
+            code ? fmt::format("{}: {} cannot be measured ({}); check its permissions", owner_, name_, code.message())
+                 : fmt::format("{}: {} has {} bytes, more than the {} that are read; split or compress it", owner_,
+                               name_, bytes, most_bytes));
     }
-    Bytes content(static_cast<std::size_t>(bytes));
-    std::ifstream stream(file, std::ios::binary);
-    stream.read(content.data(), static_cast<std::streamsize>(content.size()));
-    if (!stream || static_cast<std::uintmax_t>(stream.gcount()) != bytes) {
-        throw Error(Fault::input, fmt::format("{}: {} cannot be read; check its permissions", owner, file.string()));
+    size_ = static_cast<std::size_t>(bytes);
+    stream_.rdbuf()->pubsetbuf(nullptr, 0);  // what is read here is large, or read once
+    stream_.open(file, std::ios::binary);
+}
+
+void RegularFile::read(std::size_t start, char* into, std::size_t size) {
+    stream_.seekg(static_cast<std::streamoff>(start));
+    stream_.read(into, static_cast<std::streamsize>(size));
+    if (!stream_ || static_cast<std::size_t>(stream_.gcount()) != size) {
+        throw Error(Fault::input, fmt::format("{}: {} cannot be read; check its permissions", owner_, name_));
     }
-    return content;
+}
+
+Bytes read_regular_file(const std::filesystem::path& file, std::uint64_t most_bytes, const std::string& owner) {
+    RegularFile source(file, most_bytes, owner);
+    Bytes bytes(source.size());
+    source.read(0, bytes.data(), bytes.size());
+    return bytes;
 }
 
 }  // namespace halfframe::content

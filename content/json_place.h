@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <initializer_list>
 #include <limits>
 #include <optional>
@@ -91,8 +92,23 @@ private:
 /// Parses JSON text. Bad text, or nesting deeper than `deepest`: Error(input) with line and column.
 [[nodiscard]] JsonDocument parse_json(std::string_view text, const JsonSource& source, int deepest = 64);
 
-/// A whole regular file of at most `most_bytes`. Missing, a folder, a pipe, too big: Error(input). `owner` starts the
-/// message: "FILE" or "FILE: POINTER".
+/// A regular file that is open, of at most `most_bytes`. Missing, a folder, a pipe, too big, not readable:
+/// Error(input). `owner` starts the message: "FILE" or "FILE: POINTER".
+class RegularFile {
+public:
+    RegularFile(const std::filesystem::path& file, std::uint64_t most_bytes, std::string owner);
+    [[nodiscard]] std::size_t size() const { return size_; }
+    /// `size` bytes from `start` on, all of them.
+    void read(std::size_t start, char* into, std::size_t size);
+
+private:
+    std::string name_;
+    std::string owner_;
+    std::size_t size_ = 0;
+    std::ifstream stream_;
+};
+
+/// All of a RegularFile.
 [[nodiscard]] Bytes read_regular_file(const std::filesystem::path& file, std::uint64_t most_bytes,
                                       const std::string& owner);
 

@@ -2,7 +2,9 @@
 #include "content/mesh_tools.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "engine/error.h"
@@ -28,19 +30,71 @@ constexpr float kRoundingOfUnit = 5e-7f;
 
 bool is_unit(const glm::vec3& v) { return std::abs(glm::dot(v, v) - 1.0f) < kRoundingOfUnit; }
 
-/// Calls mend(i) for each i below `count` that is not right. Whole blocks are asked first, without a branch for each,
-/// so that several go at a time: most meshes are right.
+/// Vertices that are looked at together, without a branch for each, so that the compiler takes several at a time.
+constexpr std::size_t kBlock = 64;
+
+/// Calls mend(start, end) for each block of the first `count` in which not all is right: most meshes are right.
 template <typename IsRight, typename Mend>
-void for_each_off(std::size_t count, IsRight&& is_right, Mend&& mend) {
-    constexpr std::size_t kBlock = 64;
+void for_each_block_off(std::size_t count, IsRight&& is_right, Mend&& mend) {
     for (std::size_t start = 0; start < count; start += kBlock) {
         const std::size_t end = std::min(start + kBlock, count);
         unsigned off = 0;
         for (std::size_t i = start; i < end; ++i) off |= is_right(i) ? 0u : 1u;
-        for (std::size_t i = start; off != 0 && i < end; ++i) {
-            if (!is_right(i)) mend(i);
-        }
+        if (off != 0) mend(start, end);
     }
+}
+
+/// Vectors of a block, component by component.
+struct Lanes {
+    std::array<float, kBlock> x{}, y{}, z{};
+};
+
+template <typename Vector>
+Lanes lanes_of(std::span<const Vector> vectors) {
+    Lanes lanes;
+    for (std::size_t i = 0; i < vectors.size(); ++i) {
+        lanes.x[i] = vectors[i].x;
+        lanes.y[i] = vectors[i].y;
+        lanes.z[i] = vectors[i].z;
+    }
+    return lanes;
+}
+
+/// Any unit vector orthogonal to `normal`.
+glm::vec3 some_tangent(const glm::vec3& normal) {
+    const glm::vec3 axis = std::abs(normal.x) < 0.9f ? glm::vec3(1.0f, 0.0f, 0.0f) : glm::vec3(0.0f, 0.0f, 1.0f);
+    return glm::normalize(axis - normal * glm::dot(normal, axis));
+}
+
+/// Under this length [1] what is left of a unit tangent across its normal is rounding: its direction means nothing.
+constexpr float kLeastAcross = 0.01f;
+
+/// `tangent` made unit and orthogonal to `normal`.
+glm::vec3 orthogonal(const glm::vec3& tangent, const glm::vec3& normal) {
+    const glm::vec3 given(unit_or(tangent, glm::vec3(0.0f)));
+    const glm::vec3 flat = given - normal * glm::dot(normal, given);
+    return glm::length(flat) > kLeastAcross ? glm::normalize(flat) : some_tangent(normal);
+}
+
+/// orthogonal() for a block, operation by operation the same. `across`: the length that is compared with kLeastAcross;
+/// where it is not above that, or not a number, the result means nothing.
+Lanes orthogonal(const Lanes& tangent, const Lanes& normal, std::array<float, kBlock>& across) {
+    Lanes result;
+    for (std::size_t i = 0; i < kBlock; ++i) {
+        const float largest =
+            std::max(std::max(std::abs(tangent.x[i]), std::abs(tangent.y[i])), std::abs(tangent.z[i]));
+        const float sx = tangent.x[i] / largest, sy = tangent.y[i] / largest, sz = tangent.z[i] / largest;
+        const float over_length = 1.0f / std::sqrt(sx * sx + sy * sy + sz * sz);
+        const float gx = sx * over_length, gy = sy * over_length, gz = sz * over_length;
+        const float along = normal.x[i] * gx + normal.y[i] * gy + normal.z[i] * gz;
+        const float fx = gx - normal.x[i] * along, fy = gy - normal.y[i] * along, fz = gz - normal.z[i] * along;
+        across[i] = std::sqrt(fx * fx + fy * fy + fz * fz);
+        const float over_across = 1.0f / across[i];
+        result.x[i] = fx * over_across;
+        result.y[i] = fy * over_across;
+        result.z[i] = fz * over_across;
+    }
+    return result;
 }
 
 /// Twice the area of the face times its normal, in double: products of large coordinates leave float.
@@ -49,12 +103,6 @@ glm::vec3 face_normal_times_area(const Mesh& mesh, std::uint32_t a, std::uint32_
     const glm::dvec3 normal =
         glm::cross(glm::dvec3(mesh.positions[b]) - origin, glm::dvec3(mesh.positions[c]) - origin);
     return glm::vec3(glm::clamp(normal, -1e30, 1e30));
-}
-
-/// Any unit vector orthogonal to `normal`.
-glm::vec3 some_tangent(const glm::vec3& normal) {
-    const glm::vec3 axis = std::abs(normal.x) < 0.9f ? glm::vec3(1.0f, 0.0f, 0.0f) : glm::vec3(0.0f, 0.0f, 1.0f);
-    return glm::normalize(axis - normal * glm::dot(normal, axis));
 }
 
 template <typename Stream>
@@ -149,13 +197,15 @@ Mesh flat_shaded(const Mesh& mesh) {
 std::size_t repair_normals(Mesh& mesh) {
     std::vector<bool> bad(mesh.normals.size(), false);
     std::size_t bad_count = 0;
-    for_each_off(
-        mesh.normals.size(), [&](std::size_t i) { return is_unit(mesh.normals[i]); },
-        [&](std::size_t i) {
+    const auto is_right = [&](std::size_t i) { return is_unit(mesh.normals[i]); };
+    for_each_block_off(mesh.normals.size(), is_right, [&](std::size_t start, std::size_t end) {
+        for (std::size_t i = start; i < end; ++i) {
+            if (is_right(i)) continue;
             mesh.normals[i] = unit_or(mesh.normals[i], glm::vec3(0.0f));
             bad[i] = mesh.normals[i] == glm::vec3(0.0f);
             bad_count += bad[i] ? 1 : 0;
-        });
+        }
+    });
     if (bad_count == 0) {
         return 0;
     }
@@ -233,12 +283,19 @@ void repair_tangents(Mesh& mesh) {
                (std::abs(glm::dot(glm::vec3(tangent), mesh.normals[i])) < kRoundingOfUnit) &
                (std::abs(tangent.w) == 1.0f);
     };
-    for_each_off(mesh.tangents.size(), is_right, [&](std::size_t i) {
-        const glm::vec3 given(unit_or(glm::vec3(mesh.tangents[i]), glm::vec3(0.0f)));
-        const glm::vec3 flat = given - mesh.normals[i] * glm::dot(mesh.normals[i], given);
-        // Under 0.01 the tangent is the normal but for rounding: its direction means nothing.
-        const glm::vec3 unit = glm::length(flat) > 0.01f ? glm::normalize(flat) : some_tangent(mesh.normals[i]);
-        mesh.tangents[i] = glm::vec4(unit, mesh.tangents[i].w < 0.0f ? -1.0f : 1.0f);
+    std::array<float, kBlock> across{};
+    for_each_block_off(mesh.tangents.size(), is_right, [&](std::size_t start, std::size_t end) {
+        const std::size_t count = end - start;
+        const Lanes made = orthogonal(lanes_of(std::span<const glm::vec4>(mesh.tangents).subspan(start, count)),
+                                      lanes_of(std::span<const glm::vec3>(mesh.normals).subspan(start, count)), across);
+        for (std::size_t i = start; i < end; ++i) {
+            if (is_right(i)) continue;
+            const std::size_t lane = i - start;
+            const glm::vec3 unit = across[lane] > kLeastAcross
+                                       ? glm::vec3(made.x[lane], made.y[lane], made.z[lane])
+                                       : orthogonal(glm::vec3(mesh.tangents[i]), mesh.normals[i]);
+            mesh.tangents[i] = glm::vec4(unit, mesh.tangents[i].w < 0.0f ? -1.0f : 1.0f);
+        }
     });
 }
 

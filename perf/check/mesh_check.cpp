@@ -57,7 +57,8 @@ std::vector<glm::vec3> normals_of(const content::JsonPlace& root, const content:
     const auto size = static_cast<std::size_t>(content::component_bytes(type));
     const std::size_t stride = view.has("byteStride") ? number(view, "byteStride") : 3 * size;
     const std::size_t start = number(view, "byteOffset") + number(accessor, "byteOffset");
-    const std::string_view bytes = resources.buffers[number(view, "buffer")];
+    const content::GltfBuffer& buffer = resources.buffers[number(view, "buffer")];
+    const std::string_view bytes = buffer.part(0, buffer.size());
     for (std::size_t i = 0; i < number(accessor, "count"); ++i) {
         glm::vec3 normal(0.0f);
         for (int k = 0; k < 3; ++k) {
@@ -153,10 +154,9 @@ void check_file_normals(const Request& request, Report& report) {
             const std::vector<glm::vec3> normals = normals_of(root, resources, accessor);
             const LengthError error = length_error(normals, request.thresholds.vertex_normal_length);
             if (error.off > 0) {
-                report.findings.push_back(
-                    normals_finding(error, normals.size(),
-                                    fmt::format("/meshes/{}/primitives/{}/attributes/NORMAL", at, part),
-                                    fmt::format("accessor {}", accessor)));
+                report.findings.push_back(normals_finding(
+                    error, normals.size(), fmt::format("/meshes/{}/primitives/{}/attributes/NORMAL", at, part),
+                    fmt::format("accessor {}", accessor)));
             }
         });
     });

@@ -1,6 +1,9 @@
 // Draws one frame of built-in scenes and writes the traces of every GL call: preparing, drawing, reading back. Before
 // each stand its scene, its tier and the effects that its plan has in.
 // Usage: trace_frame FILE [SCENE TIER]... (none: every built-in scene at every tier). Exit code 77: no context here.
+#include <unistd.h>
+
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -55,26 +58,47 @@ std::string trace(gl::EntryPoints& gl, const gl::Caps& caps, const Scene& scene,
     return text;
 }
 
+/// The file until it is whole: gone again when anything ends the program before, but for what it cannot hear of.
+class UnfinishedFile {
+public:
+    explicit UnfinishedFile(const std::string& whole) {
+        std::snprintf(path, sizeof path, "%s.unfinished", whole.c_str());
+        for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, &remove_and_die);
+    }
+    ~UnfinishedFile() { ::unlink(path); }
+    UnfinishedFile(const UnfinishedFile&) = delete;
+    UnfinishedFile& operator=(const UnfinishedFile&) = delete;
+
+    static inline char path[4096] = "";  // what a signal's handler can read
+
+private:
+    static void remove_and_die(int signal) {
+        ::unlink(path);
+        std::signal(signal, SIG_DFL);
+        std::raise(signal);
+    }
+};
+
 }  // namespace
 
 int main(int argc, char** argv) {
     if (argc < 2 || argc % 2 == 1) return 2;
+    const UnfinishedFile unfinished(argv[1]);
     try {
         const platform::Context context = platform::Context::create({.backend = platform::Backend::egl});
         gl::EntryPoints gl(context.loader());
         const gl::Caps caps = gl::read_caps(gl);
         gl.restrict_to(caps);
-        const std::string beside = std::string(argv[1]) + ".unfinished";
-        std::ofstream file(beside, std::ios::binary);
+        std::ofstream file(UnfinishedFile::path, std::ios::binary);
         std::map<std::string, Scene> scenes;  // made once, drawn at several tiers
         for (const Frame& frame : frames_asked_for(argc, argv)) {
             const auto [made, is_new] = scenes.try_emplace(frame.scene);
             if (is_new) made->second = content::open_scene(frame.scene);
             file << trace(gl, caps, made->second, frame);
         }
-        if (!file.flush()) throw Error(Fault::environment, beside + " cannot be written");
+        if (!file.flush()) throw Error(Fault::environment, std::string(UnfinishedFile::path) + " cannot be written");
         file.close();
-        std::filesystem::rename(beside, argv[1]);
+        std::filesystem::rename(UnfinishedFile::path, argv[1]);
         return 0;
     } catch (const platform::ContextError& error) {
         std::fprintf(stderr, "%s\n", error.what());

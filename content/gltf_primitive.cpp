@@ -238,7 +238,8 @@ void read_checked_indices(const GltfModel& gltf, const tinygltf::Primitive& prim
                           Mesh& mesh) {
     if (primitive.indices >= 0) {
         mesh.indices = read_indices(gltf, primitive.indices);
-        const std::uint32_t largest = mesh.indices.empty() ? 0 : std::ranges::max(mesh.indices);
+        std::uint32_t largest = 0;
+        for (const std::uint32_t each : mesh.indices) largest = std::max(largest, each);
         for (std::size_t i = 0; largest >= mesh.positions.size() && i < mesh.indices.size(); ++i) {
             if (mesh.indices[i] >= mesh.positions.size()) {
                 fail(gltf, place + "/indices",

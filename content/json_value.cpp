@@ -211,7 +211,7 @@ std::optional<JsonDocument::Fault> JsonDocument::parse(std::string_view text, in
 }
 
 const JsonValue& JsonDocument::root() const {
-    static constexpr JsonValue kNull;
+    static constexpr JsonValue kNull{};
     return storage_ ? storage_->root : kNull;
 }
 

@@ -44,22 +44,6 @@ void for_each_block_off(std::size_t count, IsRight&& is_right, Mend&& mend) {
     }
 }
 
-/// Vectors of a block, component by component.
-struct Lanes {
-    std::array<float, kBlock> x{}, y{}, z{};
-};
-
-template <typename Vector>
-Lanes lanes_of(std::span<const Vector> vectors) {
-    Lanes lanes;
-    for (std::size_t i = 0; i < vectors.size(); ++i) {
-        lanes.x[i] = vectors[i].x;
-        lanes.y[i] = vectors[i].y;
-        lanes.z[i] = vectors[i].z;
-    }
-    return lanes;
-}
-
 /// Any unit vector orthogonal to `normal`.
 glm::vec3 some_tangent(const glm::vec3& normal) {
     const glm::vec3 axis = std::abs(normal.x) < 0.9f ? glm::vec3(1.0f, 0.0f, 0.0f) : glm::vec3(0.0f, 0.0f, 1.0f);
@@ -76,26 +60,47 @@ glm::vec3 orthogonal(const glm::vec3& tangent, const glm::vec3& normal) {
     return glm::length(flat) > kLeastAcross ? glm::normalize(flat) : some_tangent(normal);
 }
 
-/// orthogonal() for a block, operation by operation the same. `across`: the length that is compared with kLeastAcross;
-/// where it is not above that, or not a number, the result means nothing.
-Lanes orthogonal(const Lanes& tangent, const Lanes& normal, std::array<float, kBlock>& across) {
-    Lanes result;
-    for (std::size_t i = 0; i < kBlock; ++i) {
-        const float largest =
-            std::max(std::max(std::abs(tangent.x[i]), std::abs(tangent.y[i])), std::abs(tangent.z[i]));
-        const float sx = tangent.x[i] / largest, sy = tangent.y[i] / largest, sz = tangent.z[i] / largest;
-        const float over_length = 1.0f / std::sqrt(sx * sx + sy * sy + sz * sz);
-        const float gx = sx * over_length, gy = sy * over_length, gz = sz * over_length;
-        const float along = normal.x[i] * gx + normal.y[i] * gy + normal.z[i] * gz;
-        const float fx = gx - normal.x[i] * along, fy = gy - normal.y[i] * along, fz = gz - normal.z[i] * along;
-        across[i] = std::sqrt(fx * fx + fy * fy + fz * fz);
-        const float over_across = 1.0f / across[i];
-        result.x[i] = fx * over_across;
-        result.y[i] = fy * over_across;
-        result.z[i] = fz * over_across;
+/// Tangents of a block and their normals, component by component.
+struct TangentLanes {
+    std::array<float, kBlock> x{}, y{}, z{}, w{};
+    std::array<float, kBlock> nx{}, ny{}, nz{};
+    std::array<std::uint32_t, kBlock> by_hand{};  ///< 1: what stands in the lane means nothing
+
+    /// Lanes behind the last one keep what they have.
+    void fill(std::span<const glm::vec4> tangents, std::span<const glm::vec3> normals) {
+        for (std::size_t i = 0; i < tangents.size(); ++i) {
+            x[i] = tangents[i].x;
+            y[i] = tangents[i].y;
+            z[i] = tangents[i].z;
+            w[i] = tangents[i].w;
+            nx[i] = normals[i].x;
+            ny[i] = normals[i].y;
+            nz[i] = normals[i].z;
+        }
     }
-    return result;
-}
+
+    /// What is not right becomes orthogonal() to the bit, operation by operation, where its direction means something.
+    void repair() {
+        for (std::size_t i = 0; i < kBlock; ++i) {
+            const bool is_right = (std::abs(x[i] * x[i] + y[i] * y[i] + z[i] * z[i] - 1.0f) < kRoundingOfUnit) &
+                                  (std::abs(x[i] * nx[i] + y[i] * ny[i] + z[i] * nz[i]) < kRoundingOfUnit);
+            const float largest = std::max(std::max(std::abs(x[i]), std::abs(y[i])), std::abs(z[i]));
+            const float sx = x[i] / largest, sy = y[i] / largest, sz = z[i] / largest;
+            const float over_length = 1.0f / std::sqrt(sx * sx + sy * sy + sz * sz);
+            const float gx = sx * over_length, gy = sy * over_length, gz = sz * over_length;
+            const float along = nx[i] * gx + ny[i] * gy + nz[i] * gz;
+            const float fx = gx - nx[i] * along, fy = gy - ny[i] * along, fz = gz - nz[i] * along;
+            const float across = std::sqrt(fx * fx + fy * fy + fz * fz);
+            const float over_across = 1.0f / across;
+            const bool stays = is_right & (std::abs(w[i]) == 1.0f);
+            by_hand[i] = stays | (across > kLeastAcross) ? 0u : 1u;
+            x[i] = stays ? x[i] : fx * over_across;
+            y[i] = stays ? y[i] : fy * over_across;
+            z[i] = stays ? z[i] : fz * over_across;
+            w[i] = w[i] < 0.0f ? -1.0f : 1.0f;
+        }
+    }
+};
 
 /// Twice the area of the face times its normal, in double: products of large coordinates leave float.
 glm::vec3 face_normal_times_area(const Mesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
@@ -283,18 +288,15 @@ void repair_tangents(Mesh& mesh) {
                (std::abs(glm::dot(glm::vec3(tangent), mesh.normals[i])) < kRoundingOfUnit) &
                (std::abs(tangent.w) == 1.0f);
     };
-    std::array<float, kBlock> across{};
+    TangentLanes lanes;
     for_each_block_off(mesh.tangents.size(), is_right, [&](std::size_t start, std::size_t end) {
-        const std::size_t count = end - start;
-        const Lanes made = orthogonal(lanes_of(std::span<const glm::vec4>(mesh.tangents).subspan(start, count)),
-                                      lanes_of(std::span<const glm::vec3>(mesh.normals).subspan(start, count)), across);
-        for (std::size_t i = start; i < end; ++i) {
-            if (is_right(i)) continue;
-            const std::size_t lane = i - start;
-            const glm::vec3 unit = across[lane] > kLeastAcross
-                                       ? glm::vec3(made.x[lane], made.y[lane], made.z[lane])
-                                       : orthogonal(glm::vec3(mesh.tangents[i]), mesh.normals[i]);
-            mesh.tangents[i] = glm::vec4(unit, mesh.tangents[i].w < 0.0f ? -1.0f : 1.0f);
+        lanes.fill(std::span<const glm::vec4>(mesh.tangents).subspan(start, end - start),
+                   std::span<const glm::vec3>(mesh.normals).subspan(start, end - start));
+        lanes.repair();
+        for (std::size_t i = start, lane = 0; i < end; ++i, ++lane) {
+            glm::vec3 unit(lanes.x[lane], lanes.y[lane], lanes.z[lane]);
+            if (lanes.by_hand[lane] != 0) unit = orthogonal(glm::vec3(mesh.tangents[i]), mesh.normals[i]);
+            mesh.tangents[i] = glm::vec4(unit, lanes.w[lane]);
         }
     });
 }

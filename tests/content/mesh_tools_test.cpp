@@ -1,7 +1,11 @@
 // Triangle lists, flat normals, tangents, mirroring, and the shapes made in code.
 #include "content/mesh_tools.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <limits>
+#include <random>
 
 #include <gtest/gtest.h>
 
@@ -125,6 +129,56 @@ TEST_P(Shapes, TangentsAreThoseOfTheUv) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Shapes, ::testing::Range(0, 4));
+
+/// repair_tangents() of one vertex, written out.
+glm::vec4 repaired(const glm::vec4& tangent, const glm::vec3& normal) {
+    const glm::vec3 given(tangent);
+    if (std::abs(glm::dot(given, given) - 1.0f) < 5e-7f && std::abs(glm::dot(given, normal)) < 5e-7f &&
+        std::abs(tangent.w) == 1.0f)
+        return tangent;
+    const float largest = std::max({std::abs(given.x), std::abs(given.y), std::abs(given.z)});
+    const bool has_length =
+        std::isfinite(given.x) && std::isfinite(given.y) && std::isfinite(given.z) && largest > 0.0f;
+    const glm::vec3 unit = has_length ? glm::normalize(given / largest) : glm::vec3(0.0f);
+    const glm::vec3 flat = unit - normal * glm::dot(normal, unit);
+    const glm::vec3 axis = std::abs(normal.x) < 0.9f ? glm::vec3(1.0f, 0.0f, 0.0f) : glm::vec3(0.0f, 0.0f, 1.0f);
+    const glm::vec3 some = glm::normalize(axis - normal * glm::dot(normal, axis));
+    return {glm::length(flat) > 0.01f ? glm::normalize(flat) : some, tangent.w < 0.0f ? -1.0f : 1.0f};
+}
+
+TEST(MeshTools, TangentsAreRepairedAsIfOneByOneToTheBit) {
+    std::mt19937 random(20131107);
+    const auto number = [&] { return static_cast<float>(random() % 2001) / 1000.0f - 1.0f; };
+    constexpr float kInfinite = std::numeric_limits<float>::infinity(), kNone = std::nanf("");
+    for (const std::size_t count : {1u, 63u, 64u, 65u, 1000u}) {
+        Mesh mesh;
+        std::vector<glm::vec4> wanted;
+        for (std::size_t i = 0; i < count; ++i) {
+            const glm::vec3 normal = glm::normalize(glm::vec3(number(), number(), number()) + glm::vec3(0, 0, 1.5f));
+            glm::vec4 tangent(number(), number(), number(), number());
+            switch (random() % 12) {
+                case 0: tangent = glm::vec4(0.0f, -0.0f, 0.0f, 1.0f); break;
+                case 1: tangent = glm::vec4(normal * number(), -1.0f); break;  // no direction is left
+                case 2: tangent.x = kInfinite; break;
+                case 3: tangent.y = kNone; break;
+                case 4: tangent *= 1e38f; break;
+                case 5: tangent *= 1e-42f; break;
+                case 6: tangent.w = kNone; break;
+                case 7: tangent = repaired(tangent, normal); break;
+                default: break;
+            }
+            mesh.positions.emplace_back(0.0f);
+            mesh.normals.push_back(normal);
+            mesh.tangents.push_back(tangent);
+            wanted.push_back(repaired(tangent, normal));
+        }
+        content::repair_tangents(mesh);
+        for (std::size_t i = 0; i < count; ++i) {
+            EXPECT_EQ(std::memcmp(&mesh.tangents[i], &wanted[i], sizeof wanted[i]), 0)
+                << i << " of " << count << ": " << mesh.tangents[i].x << " for " << wanted[i].x;
+        }
+    }
+}
 
 }  // namespace
 }  // namespace halfframe::tests

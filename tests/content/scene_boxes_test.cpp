@@ -23,6 +23,23 @@ TEST(SceneBoxes, LocalBoxCountsWhatIsDrawn) {
     EXPECT_THROW((void)local_box(mesh), Mistake);
 }
 
+TEST(SceneBoxes, LocalBoxHoldsEveryVertexOfMeshesOfAnyLength) {
+    for (int count = 1; count < 14; ++count) {
+        for (int outermost = 0; outermost < count; ++outermost) {
+            Mesh mesh;
+            for (int i = 0; i < count; ++i) {
+                mesh.positions.push_back(i == outermost ? glm::vec3(-7, 9, -8) : glm::vec3(-1, 1, 2));
+                mesh.indices.push_back(static_cast<std::uint32_t>(count - 1 - i));
+            }
+            const Box box = local_box(mesh);
+            EXPECT_EQ(box.low, glm::vec3(-7, count > 1 ? 1 : 9, -8)) << outermost << " of " << count;
+            EXPECT_EQ(box.high, glm::vec3(count > 1 ? -1 : -7, 9, count > 1 ? 2 : -8)) << outermost << " of " << count;
+            mesh.indices.clear();
+            EXPECT_EQ(local_box(mesh).low, box.low) << outermost << " of " << count;
+        }
+    }
+}
+
 TEST(SceneBoxes, WorldBoxFollowsTheTransform) {
     const Box box{glm::vec3(-1), glm::vec3(1)};
     const glm::mat4 turned = glm::rotate(glm::translate(glm::mat4(1.0f), {10, 0, 0}), 0.785398f, glm::vec3(0, 1, 0));

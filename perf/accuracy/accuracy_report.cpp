@@ -135,6 +135,7 @@ std::vector<std::string> AccuracyReport::violations() const {
     add(functions);
     add(models);
     add(storage);
+    add(depth);
     add(frames);
     return all;
 }
@@ -146,6 +147,7 @@ std::string accuracy_text(const AccuracyReport& report) {
     if (!report.functions.empty()) text += "\n" + functions_text(report.functions);
     if (!report.models.empty()) text += "\n" + models_text(report.models);
     if (!report.storage.empty()) text += "\n" + storage_text(report.storage);
+    if (!report.depth.empty()) text += "\n" + depth_text(report.depth);
     if (!report.frames.empty()) text += "\n" + frames_text(report.frames);
     const std::vector<std::string> violations = report.violations();
     if (!violations.empty()) text += "\n";
@@ -161,6 +163,7 @@ nlohmann::ordered_json accuracy_json(const AccuracyReport& report) {
     if (!report.functions.empty()) all["functions"] = functions_json(report.functions);
     if (!report.models.empty()) all["models"] = models_json(report.models);
     if (!report.storage.empty()) all["storage"] = storage_json(report.storage);
+    if (!report.depth.empty()) all["depth"] = depth_json(report.depth);
     if (!report.frames.empty()) all["frames"] = frames_json(report.frames);
     return all;
 }

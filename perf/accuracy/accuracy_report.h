@@ -6,6 +6,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "perf/accuracy/depth_accuracy.h"
 #include "perf/accuracy/frame_accuracy.h"
 #include "perf/accuracy/measure.h"
 #include "perf/accuracy/model_list.h"
@@ -24,6 +25,7 @@ struct AccuracyReport {
     std::vector<FunctionAccuracy> functions = {};
     std::vector<ModelAccuracy> models = {};
     std::vector<StorageAccuracy> storage = {};
+    std::vector<DepthAccuracy> depth = {};
     std::vector<FrameAccuracy> frames = {};
     [[nodiscard]] std::vector<std::string> violations() const;
 };
@@ -40,6 +42,8 @@ struct AccuracyReport {
 [[nodiscard]] nlohmann::ordered_json models_json(const std::vector<ModelAccuracy>& models);
 [[nodiscard]] std::string storage_text(const std::vector<StorageAccuracy>& storage);
 [[nodiscard]] nlohmann::ordered_json storage_json(const std::vector<StorageAccuracy>& storage);
+[[nodiscard]] std::string depth_text(const std::vector<DepthAccuracy>& depth);
+[[nodiscard]] nlohmann::ordered_json depth_json(const std::vector<DepthAccuracy>& depth);
 [[nodiscard]] std::string frames_text(const std::vector<FrameAccuracy>& frames);
 [[nodiscard]] nlohmann::ordered_json frames_json(const std::vector<FrameAccuracy>& frames);
 

@@ -94,6 +94,60 @@ nlohmann::ordered_json storage_json(const std::vector<StorageAccuracy>& storage)
     return all;
 }
 
+std::string depth_text(const std::vector<DepthAccuracy>& depth) {
+    perf::TextTable table({{"depth", Align::left},
+                           {"largest", Align::right},
+                           {"p99", Align::right},
+                           {"of the distance", Align::right},
+                           {"at [m]", Align::right},
+                           {"near [m]", Align::right},
+                           {"surface apart", Align::right},
+                           {"bounds", Align::left}});
+    std::string reasons;
+    for (const DepthAccuracy& row : depth) {
+        if (!row.missing.empty()) {
+            table.add_row({gl::name(row.format), "-", "-", "-", "-", "-", "-", row.missing});
+            continue;
+        }
+        table.add_row({gl::name(row.format), fmt::format("{:.2g}", row.largest), fmt::format("{:.2g}", row.p99),
+                       fmt::format("{:.2g}", row.of_distance), fmt::format("{:.3g}", row.worst_m),
+                       fmt::format("{:g}", row.worst_near_m), std::to_string(row.apart),
+                       row.violations.empty() ? "hold" : "exceeded"});
+        reasons += fmt::format("  {} of {:g} steps: {}\n  {} of {:g} of the distance: {}\n", gl::name(row.format),
+                               row.bound.at_most, row.bound.reason, gl::name(row.format), row.distance_bound.at_most,
+                               row.distance_bound.reason);
+    }
+    return "Depth: what storing it costs, in steps of the format; how far the distance that is stored is from the one "
+           "in\ndouble, at its worst; and in how many places surface.vert writes another depth than "
+           "depth_prepass.\n\n" +
+           table.text() + (reasons.empty() ? "" : "\nBounds\n" + reasons);
+}
+
+nlohmann::ordered_json depth_json(const std::vector<DepthAccuracy>& depth) {
+    Json all = Json::array();
+    for (const DepthAccuracy& row : depth) {
+        Json json{{"format", gl::name(row.format)}, {"unit", "steps"}};
+        if (row.missing.empty()) {
+            json.update({{"lanes", row.lanes},
+                         {"largest", row.largest},
+                         {"p99", row.p99},
+                         {"of_distance", row.of_distance},
+                         {"worst_m", row.worst_m},
+                         {"worst_near_m", row.worst_near_m},
+                         {"surface_apart", row.apart},
+                         {"bound", row.bound.at_most},
+                         {"bound_reason", row.bound.reason},
+                         {"of_distance_bound", row.distance_bound.at_most},
+                         {"of_distance_bound_reason", row.distance_bound.reason},
+                         {"violations", row.violations}});
+        } else {
+            json["missing"] = row.missing;
+        }
+        all.push_back(json);
+    }
+    return all;
+}
+
 std::string frames_text(const std::vector<FrameAccuracy>& frames) {
     std::vector<perf::TextTable::Column> columns{{"kind", Align::left}, {"change", Align::left}};
     for (const FrameAccuracy& frame : frames) {

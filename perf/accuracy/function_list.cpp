@@ -100,8 +100,9 @@ std::vector<FunctionEntry> sky_functions() {
 
 std::vector<FunctionEntry> function_list() {
     std::vector<FunctionEntry> list;
-    const std::array parts{anti_alias_functions(), bloom_functions(),   environment_functions(), shadow_functions(),
-                           sky_functions(),        surface_functions(), tone_map_functions(),
+    const std::array parts{anti_alias_functions(),  bloom_functions(),    depth_prepass_functions(),
+                           environment_functions(), shadow_functions(),   sky_functions(),
+                           surface_functions(),     tone_map_functions(), transparent_functions(),
                            wet_surface_functions(), puddles_functions()};
     for (const EffectCard* card : all_effects()) {
         for (const std::vector<FunctionEntry>& part : parts) {

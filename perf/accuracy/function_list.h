@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "engine/frame/tier.h"
+#include "engine/gl/caps.h"
+#include "engine/gl/entry_points.h"
 #include "perf/shader_ir/evaluate.h"
 
 namespace halfframe::accuracy {
@@ -25,6 +27,7 @@ public:
     [[nodiscard]] double operator()(std::size_t argument, std::size_t scalar = 0) const {
         return arguments_[argument].values[scalar][lane_];
     }
+    [[nodiscard]] std::size_t number() const { return lane_; }
 
 private:
     const std::vector<Argument>& arguments_;
@@ -33,6 +36,11 @@ private:
 
 /// A figure of one scalar of the result in one lane.
 using PerScalar = std::function<double(const Lane& lane, std::size_t scalar)>;
+
+/// All results, one array per scalar, of what is no plain function: a whole stage, or what the device does by itself.
+using InModel = std::function<shader_ir::Columns(const std::vector<Argument>& arguments, shader_ir::Model model)>;
+using OnContext = std::function<shader_ir::Columns(const std::vector<Argument>& arguments, gl::EntryPoints& gl,
+                                                   const gl::Caps& caps, Arithmetic arithmetic)>;
 
 enum class Unit : std::uint8_t {
     absolute,       ///< difference; for values within 0..1
@@ -56,6 +64,8 @@ struct FunctionEntry {
     Arithmetic arithmetic = Arithmetic::half;
     const char* domain = "";  ///< the inputs, for a reader
     std::function<std::vector<Argument>()> arguments;
+    InModel in_model = {};      ///< instead of a call of `function`
+    OnContext on_context = {};  ///< goes with in_model
     PerScalar reference;
     Unit unit = Unit::absolute;
     PerScalar peak = {};  ///< > 0; only of Unit::of_peak
@@ -72,6 +82,7 @@ struct FunctionEntry {
 [[nodiscard]] std::vector<FunctionEntry> function_list();
 
 // The parts of that list, in or out of the build.
+[[nodiscard]] std::vector<FunctionEntry> depth_prepass_functions();
 [[nodiscard]] std::vector<FunctionEntry> environment_functions();
 [[nodiscard]] std::vector<FunctionEntry> shadow_functions();
 [[nodiscard]] std::vector<FunctionEntry> anti_alias_functions();
@@ -80,6 +91,7 @@ struct FunctionEntry {
 [[nodiscard]] std::vector<FunctionEntry> surface_functions();
 [[nodiscard]] std::vector<FunctionEntry> surface_material_functions();  ///< part of surface_functions()
 [[nodiscard]] std::vector<FunctionEntry> tone_map_functions();
+[[nodiscard]] std::vector<FunctionEntry> transparent_functions();
 [[nodiscard]] std::vector<FunctionEntry> wet_surface_functions();
 [[nodiscard]] std::vector<FunctionEntry> puddles_functions();
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "engine/error.h"
+#include "engine/frame/draw_state.h"
 
 namespace halfframe::accuracy {
 
@@ -69,7 +70,7 @@ gl::Texture LaneCanvas::texture(gl::PixelFormat pixel_format, const void* texels
     return result;
 }
 
-void LaneCanvas::draw_to(const gl::Texture& target) {
+void LaneCanvas::bind(const gl::Texture& target) {
     gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
     gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target.name(), 0);
     const std::uint32_t status = gl_.CheckFramebufferStatus(GL_FRAMEBUFFER);
@@ -79,9 +80,21 @@ void LaneCanvas::draw_to(const gl::Texture& target) {
                                                 side_, status));
     }
     gl_.Viewport(0, 0, side_, side_);
+}
+
+void LaneCanvas::draw_to(const gl::Texture& target) {
+    bind(target);
     gl_.ClearColor(0.0f, 0.0f, 0.0f, 0.0f);
     gl_.Clear(GL_COLOR_BUFFER_BIT);
     gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void LaneCanvas::blend_to(const gl::Texture& target) {
+    bind(target);
+    DrawState state(gl_);
+    state.set_blend(Blend::alpha);
+    gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+    state.set_blend(Blend::none);
 }
 
 std::vector<float> LaneCanvas::read() {

@@ -32,6 +32,8 @@ public:
 
     /// Clears `target` and runs the program in use over all lanes. It stays bound for reading.
     void draw_to(const gl::Texture& target);
+    /// Runs it over what `target` holds, blended as translucent surfaces are.
+    void blend_to(const gl::Texture& target);
     /// RGBA of every lane of the target drawn last: of a float target, and of an RGBA8 one [0..1].
     [[nodiscard]] std::vector<float> read();
     [[nodiscard]] std::vector<float> read_bytes();
@@ -41,6 +43,7 @@ public:
 
 private:
     [[nodiscard]] gl::Texture texture(gl::PixelFormat format, const void* texels);
+    void bind(const gl::Texture& target);
 
     gl::EntryPoints& gl_;
     int side_;

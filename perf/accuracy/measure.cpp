@@ -34,6 +34,7 @@ shader_ir::Module module_of(const FunctionEntry& entry) {
 /// The results on a real context, one array per scalar.
 Columns drawn(const FunctionAccuracy& measured, gl::EntryPoints& gl, const gl::Caps& caps, gl::Arithmetic arithmetic) {
     const FunctionEntry& entry = measured.entry;
+    if (entry.on_context) return entry.on_context(measured.arguments, gl, caps, arithmetic);
     DrawnFunction function{.function = entry.function,
                            .files = entry.files,
                            .arithmetic = arithmetic,
@@ -153,8 +154,11 @@ FunctionAccuracy measure(const FunctionEntry& entry) {
             expect(column.size() == result.lanes, "all arguments of a measured function have as many lanes");
         }
     }
-    const shader_ir::Module module = module_of(entry);
-    const auto run = [&](Model model) { return shader_ir::evaluate(module, entry.function, inputs, model).returned; };
+    const shader_ir::Module module = entry.in_model ? shader_ir::Module{} : module_of(entry);
+    const auto run = [&](Model model) {
+        if (entry.in_model) return entry.in_model(result.arguments, model);
+        return shader_ir::evaluate(module, entry.function, inputs, model).returned;
+    };
     result.in_double = run(Model::in_double);
     const Columns& in_double = result.in_double;
     expect(!in_double.empty() && in_double[0].size() == result.lanes, "a measured function returns one value per lane");

@@ -42,12 +42,19 @@ ModelAccuracy measure(const ModelEntry& entry) {
 }
 
 std::vector<ModelEntry> model_list() {
-    const std::vector<ModelEntry> all{
-        reflectance_of_mapping(&reference::power_from_roughness), radiance_of_mapping(&reference::power_from_roughness),
-        furnace_of_ambient(&reference::fresnel_glossy),           furnace_of_direct_light(),
-        glossy_fresnel_of_split_sum(&reference::fresnel_glossy),  reflection_of_integral(&reference::fresnel_glossy),
-        reflection_between_levels(&reference::reflection_level),  diffuse_light_of_film(&reference::wet_material),
-        mirrored_light_of_film(&reference::wet_material),         radiance_of_film(&reference::wet_material)};
+    const std::vector<ModelEntry> all{reflectance_of_mapping(&reference::power_from_roughness),
+                                      radiance_of_mapping(&reference::power_from_roughness),
+                                      furnace_of_ambient(&reference::fresnel_glossy),
+                                      furnace_of_direct_light(),
+                                      glossy_fresnel_of_split_sum(&reference::fresnel_glossy),
+                                      reflection_of_integral(&reference::fresnel_glossy),
+                                      reflection_between_levels(&reference::reflection_level),
+                                      diffuse_light_of_film(&reference::wet_material),
+                                      mirrored_light_of_film(&reference::wet_material),
+                                      radiance_of_film(&reference::wet_material),
+                                      order_of_panes(&centre_order),
+                                      blended_as(reference::Held::root),
+                                      blended_as(reference::Held::display)};
     std::vector<ModelEntry> list;
     for (const ModelEntry& entry : all) {
         if (find_effect(entry.effect) != nullptr) list.push_back(entry);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/effects/transparent/transparent_reference.h"
 #include "engine/effects/wet_surface/wet_surface_reference.h"
 #include "perf/accuracy/function_list.h"
 
@@ -58,6 +59,17 @@ using GlossyFresnel = double (*)(double specular, double smoothness, double n_v)
 [[nodiscard]] ModelEntry glossy_fresnel_of_split_sum(GlossyFresnel fresnel);
 /// Of the environment, but its Fresnel is the surface's.
 [[nodiscard]] ModelEntry reflection_of_integral(GlossyFresnel fresnel);
+
+// The models of transparent; a test may plant another order, or what is blended.
+struct Pane {
+    double centre_m = 0.0;  ///< before the eye
+    double turned_rad = 0.0;
+    double half_width_m = 0.0;
+};
+using PaneOrder = double (*)(const Pane& pane);  ///< what panes are sorted by
+[[nodiscard]] double centre_order(const Pane& pane);
+[[nodiscard]] ModelEntry order_of_panes(PaneOrder order);
+[[nodiscard]] ModelEntry blended_as(reference::Held held);  ///< display or root
 
 // The models of wet surfaces; a test may plant another formula.
 using WetFormula = reference::WetMaterial (*)(const reference::DryMaterial& dry, double wetness);

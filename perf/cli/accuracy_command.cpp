@@ -1,6 +1,7 @@
 // halfframe accuracy: how far shader functions are from their references, what each arithmetic and each storage adds,
 // and how far whole frames move when nothing should.
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "engine/error.h"
 #include "engine/frame/effect_card.h"
 #include "perf/accuracy/accuracy_report.h"
+#include "perf/accuracy/depth_accuracy.h"
 #include "perf/accuracy/error_map.h"
 #include "perf/accuracy/frame_accuracy.h"
 #include "perf/accuracy/function_list.h"
@@ -38,18 +40,12 @@ bool holds(const std::vector<std::string>& words, const std::string& word) {
 std::vector<accuracy::FunctionEntry> chosen(const std::vector<std::string>& effects) {
     std::vector<std::string> built;
     for (const EffectCard* card : all_effects()) built.emplace_back(card->name);
-    std::vector<std::string> measured;
-    std::vector<accuracy::FunctionEntry> list;
-    for (const accuracy::FunctionEntry& entry : accuracy::function_list()) {
-        if (!holds(measured, entry.effect)) measured.push_back(entry.effect);
-        if (effects.empty() || holds(effects, entry.effect)) list.push_back(entry);
-    }
     for (const std::string& effect : effects) {
         if (!holds(built, effect)) throw Error(Fault::usage, unknown("effect", effect, built));
-        if (!holds(measured, effect)) {
-            throw Error(Fault::usage, fmt::format("effect '{}' has no plain shader function to measure; these have: {}",
-                                                  effect, fmt::join(measured, ", ")));
-        }
+    }
+    std::vector<accuracy::FunctionEntry> list;
+    for (const accuracy::FunctionEntry& entry : accuracy::function_list()) {
+        if (effects.empty() || holds(effects, entry.effect)) list.push_back(entry);
     }
     return list;
 }
@@ -61,8 +57,7 @@ public:
             "accuracy",
             "Measures shader functions: how far each is from its reference, what float, half, the ES minimum and the "
             "context here add, and what each storage of scene_color does to light. --frames: whole pictures instead");
-        CLI::Option* effects =
-            command.add_option("EFFECT", effects_, "Effects to measure; without one, all that have such functions");
+        CLI::Option* effects = command.add_option("EFFECT", effects_, "Effects to measure; without one, all");
         command
             .add_flag("--frames", frames_,
                       "Draw the test room far from the origin, in other units, under other lights, from odd eyes and "
@@ -186,10 +181,19 @@ private:
             report.functions.push_back(accuracy::measure(entry));
             if (draws) accuracy::measure_here(report.functions.back(), device->gl(), device->caps(), probe);
         }
-        if (!effects_.empty() || !draws) return;  // storage belongs to no effect
+        if (!draws) return;
         stop_if_interrupted();
         progress.show("storage");
-        report.storage = accuracy::measure_storage(device->gl(), device->caps());
+        const auto measured = [&](const char* effect) {
+            return find_effect(effect) != nullptr && (effects_.empty() || holds(effects_, effect));
+        };
+        if (effects_.empty()) {
+            report.storage = accuracy::measure_storage(device->gl(), device->caps());
+        } else if (measured("transparent")) {  // what light itself loses in storage belongs to no effect
+            constexpr std::array kPanes{accuracy::StoredSource::panes};
+            report.storage = accuracy::measure_storage(device->gl(), device->caps(), kPanes);
+        }
+        if (measured("depth_prepass")) report.depth = accuracy::measure_depth(device->gl(), device->caps());
     }
 
     std::vector<std::string> effects_;

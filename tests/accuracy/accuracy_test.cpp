@@ -10,11 +10,15 @@
 
 #include "engine/effects/anti_alias/anti_alias_reference.h"
 #include "engine/effects/bloom/bloom_reference.h"
+#include "engine/effects/depth_prepass/depth_prepass_reference.h"
 #include "engine/effects/environment/environment_reference.h"
 #include "engine/effects/sky/sky_reference.h"
 #include "engine/effects/surface/surface_reference.h"
 #include "engine/effects/tone_map/tone_map_reference.h"
+#include "engine/effects/transparent/transparent_reference.h"
 #include "engine/error.h"
+#include "engine/frame/effect_card.h"
+#include "perf/accuracy/depth_lanes.h"
 #include "perf/accuracy/function_list.h"
 #include "perf/accuracy/measure.h"
 #include "perf/accuracy/samples.h"
@@ -53,6 +57,12 @@ TEST(Accuracy, EveryFunctionIsWithinItsBounds) {
         ++measured;
     }
     EXPECT_GE(measured, 11u);  // when this was written
+}
+
+TEST(Accuracy, EveryEffectIsMeasured) {
+    std::set<std::string> measured;
+    for (const FunctionEntry& entry : function_list()) measured.insert(entry.effect);
+    for (const EffectCard* card : all_effects()) EXPECT_TRUE(measured.contains(std::string(card->name))) << card->name;
 }
 
 TEST(Accuracy, BoundsOfHalfAreNoWiderThanTenTimesWhatIsFound) {
@@ -102,6 +112,30 @@ TEST(WrongFormula, EdgeShareThatReachesThePixelsBorderAndLumaOfAnotherGreen) {
                   [](const Lane& in, std::size_t) { return std::max(0.5 - (in(0) - 0.5) / (in(0) + in(1)), 0.0); });
     expect_caught("edge_luma", [](const Lane& in, std::size_t) {
         return 0.2126 * in(0, 0) + 0.7152 * in(0, 1) + 0.0722 * in(0, 2);
+    });
+}
+
+TEST(WrongFormula, PanesNearToFarOrAddedAndDepthThatIsEvenInDistance) {
+    const auto panes = [](const Lane& in, std::size_t s, bool reversed) {
+        std::vector<reference::BlendedLayer> layers;
+        for (std::size_t i = 1; i <= 3; ++i)
+            layers.push_back({.light = glm::dvec3(in(i, s)),
+                              .alpha = in(4, i - 1),
+                              .distance_m = reversed ? static_cast<double>(i) : 3.0 - static_cast<double>(i)});
+        return reference::seen_through(layers, glm::dvec3(in(0, s))).x;
+    };
+    expect_caught("blended", [&](const Lane& in, std::size_t s) { return panes(in, s, true); });
+    expect_caught("blended", [](const Lane& in, std::size_t s) {
+        return in(0, s) + in(1, s) * in(4, 0) + in(2, s) * in(4, 1) + in(3, s) * in(4, 2);
+    });
+    expect_caught("depth", [](const Lane& in, std::size_t) {
+        reference::DepthRange range = depth_truths()[in.number()].range;
+        range.orthographic = true;
+        return reference::window_depth(depth_truths()[in.number()].along_m, range);
+    });
+    expect_caught("depth", [](const Lane& in, std::size_t) {  // -1..1, as clip coordinates are
+        const DepthTruth& lane = depth_truths()[in.number()];
+        return 2.0 * reference::window_depth(lane.along_m, lane.range) - 1.0;
     });
 }
 
@@ -261,6 +295,21 @@ TEST(References, SayWhatTheirSourcesSay) {
     for (const double display : {0.0, 0.1, 0.5, 0.99, 1.0}) {
         EXPECT_NEAR(reference::tone_curve(reference::inverse_tone_curve(display)), display, 1e-15) << display;
     }
+    for (const bool orthographic : {false, true}) {
+        const reference::DepthRange range{0.5, 20.0, orthographic};
+        EXPECT_EQ(reference::window_depth(0.5, range), 0.0);
+        EXPECT_NEAR(reference::window_depth(20.0, range), 1.0, 1e-15);
+        for (const double along_m : {0.6, 3.0, 19.0})
+            EXPECT_NEAR(reference::distance_at(reference::window_depth(along_m, range), range), along_m, 1e-12);
+    }
+    EXPECT_NEAR(reference::window_depth(1.0, {0.5, 1e9}), 0.5, 1e-8) << "twice as far as the near plane: half of all";
+    const std::vector<reference::BlendedLayer> pane{{.light = glm::dvec3(2.0), .alpha = 0.5}};
+    EXPECT_NEAR(reference::shown_through(pane, glm::dvec3(0.0), reference::Held::light).x, reference::tone_curve(1.0),
+                1e-15);
+    EXPECT_NEAR(reference::shown_through(pane, glm::dvec3(0.0), reference::Held::root).x, reference::tone_curve(0.5),
+                1e-15);
+    EXPECT_NEAR(reference::shown_through(pane, glm::dvec3(0.0), reference::Held::display).x,
+                0.5 * reference::tone_curve(2.0), 1e-15);
     EXPECT_EQ(reference::sky_gradient(0.0, 0.2, 0.6, 0.9), 0.6);
     EXPECT_EQ(reference::sky_gradient(1.0, 0.2, 0.6, 0.9), 0.2);
     EXPECT_EQ(reference::sky_gradient(-0.125, 0.2, 0.6, 0.9), 0.9);

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "engine/effects/tone_map/tone_map_reference.h"
+#include "perf/accuracy/depth_accuracy.h"
 #include "perf/accuracy/function_bench.h"
 #include "perf/accuracy/measure.h"
 #include "perf/accuracy/storage_accuracy.h"
@@ -87,20 +88,56 @@ TEST_F(OnTheContext, EveryStorageIsWithinItsBound) {
         // Values were compared: fp32 rounds the curve, so that not even RGBA32F shows 0.
         EXPECT_GT(row.largest, 0.0) << gl::name(row.format);
         EXPECT_LE(row.p99, row.largest);
-        EXPECT_EQ(row.lanes, row.source == StoredSource::light ? 16386u : 256u);
+        EXPECT_EQ(row.lanes, row.source == StoredSource::light           ? 16386u
+                             : row.source == StoredSource::display_codes ? 256u
+                                                                         : 4224u);
         ++measured;
     }
-    EXPECT_GE(measured, 4u);  // RGBA32F and RGBA8 at least, two sources each
+    EXPECT_GE(measured, 6u);  // RGBA32F and RGBA8 at least, three sources each
 }
 
 TEST_F(OnTheContext, EveryStorageCostsWhatItsBitsSay) {
     // A bound is no wider than it must be: where a format rounds to nearest, half of its bound is reached nearly.
     for (const StorageAccuracy& row : measure_storage(gl(), caps())) {
-        if (!row.missing.empty() || row.source != StoredSource::light || row.format == gl::PixelFormat::rgba32f)
+        if (!row.missing.empty() || row.source == StoredSource::display_codes || row.format == gl::PixelFormat::rgba32f)
             continue;
         EXPECT_GT(row.largest, 0.4 * row.bound.at_most) << gl::name(row.format);
         EXPECT_GT(row.p99, 0.1 * row.largest) << gl::name(row.format);
     }
+}
+
+TEST_F(OnTheContext, DepthIsWithinItsBoundsAndThatOfTheSurfaceToTheBit) {
+    for (const DepthAccuracy& row : measure_depth(gl(), caps())) {
+        EXPECT_TRUE(row.missing.empty()) << row.missing;
+        for (const std::string& violation : row.violations) ADD_FAILURE() << violation;
+        EXPECT_EQ(row.lanes, 4096u);
+        EXPECT_EQ(row.apart, 0u) << gl::name(row.format);
+        EXPECT_GT(row.largest, 0.4 * row.bound.at_most) << gl::name(row.format) << ": was anything stored?";
+        EXPECT_GT(row.of_distance, 0.4 * row.distance_bound.at_most) << gl::name(row.format);
+    }
+}
+
+TEST_F(OnTheContext, DepthOfAnotherKindOrOfAnotherVertexStageIsRefused) {
+    const auto wrong = [](double depth, const reference::DepthRange& range) {  // a far plane a tenth nearer
+        return reference::distance_at(depth, {range.near_m, 0.9 * range.far_m, range.orthographic});
+    };
+    for (const DepthAccuracy& row : measure_depth(gl(), caps(), wrong))
+        EXPECT_FALSE(row.violations.empty()) << gl::name(row.format);
+    // One that adds in another order: a rounding of fp32, which 24 bits show.
+    constexpr const char* kOther =
+        "VERTEX_IN vec3 position;\n"
+        "uniform highp mat4 clip_from_local;\n"
+        "void main() {\n"
+        "    gl_Position = clip_from_local[0] * position.x + (clip_from_local[1] * position.y +\n"
+        "                  (clip_from_local[2] * position.z + clip_from_local[3]));\n"
+        "}\n";
+    std::vector<gl::ShaderFile> files(gl::shader_files().begin(), gl::shader_files().end());
+    for (gl::ShaderFile& file : files) {
+        if (file.path == std::string_view("depth_prepass/depth_prepass.vert")) file.text = kOther;
+    }
+    const std::vector<DepthAccuracy> rows = measure_depth(gl(), caps(), &reference::distance_at, files);
+    EXPECT_GT(rows[0].apart, 0u) << gl::name(rows[0].format);
+    EXPECT_FALSE(rows[0].violations.empty());
 }
 
 TEST(StorageBounds, AreThoseOfThePaper) {
@@ -132,6 +169,10 @@ class OnAPoorDevice : public harness::GlFixture {
 
 TEST_F(OnAPoorDevice, StorageSaysWhyItHasNoFigures) {
     for (const StorageAccuracy& row : measure_storage(gl(), caps())) {
+        EXPECT_NE(row.missing.find("texelFetch needs ES 3.0"), std::string::npos) << row.missing;
+        EXPECT_EQ(row.lanes, 0u);
+    }
+    for (const DepthAccuracy& row : measure_depth(gl(), caps())) {
         EXPECT_NE(row.missing.find("texelFetch needs ES 3.0"), std::string::npos) << row.missing;
         EXPECT_EQ(row.lanes, 0u);
     }

@@ -95,6 +95,19 @@ TEST(Models, AnotherWayOfGettingWetIsCaught) {
     EXPECT_FALSE(measure(mirrored_light_of_film(dry)).violations.empty());
 }
 
+TEST(Models, PanesInAnotherOrderAndAnotherBlendAreCaught) {
+    const PaneOrder by_near_edge = [](const Pane& pane) {
+        return pane.centre_m - pane.half_width_m * std::sin(pane.turned_rad);
+    };
+    const PaneOrder near_to_far = [](const Pane& pane) { return -pane.centre_m; };
+    for (const PaneOrder wrong : {by_near_edge, near_to_far})
+        EXPECT_FALSE(measure(order_of_panes(wrong)).violations.empty());
+    // What blends display values is outside the bounds of what blends roots.
+    ModelEntry swapped = blended_as(reference::Held::root);
+    swapped.errors = blended_as(reference::Held::display).errors;
+    EXPECT_EQ(measure(swapped).violations.size(), 2u);
+}
+
 TEST(Models, TheTwoFurnacesThatLoseNothing) {
     // Albedo 1 and specular 0 at smoothness 0; albedo 0 and specular 1 at any: both give all back from any angle.
     int places = 0;

@@ -5,10 +5,11 @@
 // lines and letters stay as they are, to the bit, and so does everything without an edge.
 #include "anti_alias/anti_alias.glsl"
 
-FRAGMENT_IN FULL vec2 vertex_uv;
+FRAGMENT_IN FULL vec2 vertex_uv;  // FULL: half has 2048 places from 0.5 to 1, fewer than a picture 4096 wide
 uniform HALF sampler2D picture;
 FRAGMENT_UNIFORM FULL vec4 texel;  // xy: one pixel. FULL: 1 / 1280 added to a uv is below half's last bit
 
+// FULL: a uv is made of it.
 //@domain pixels: -8..8; FULL vec2 vertex_uv: 0..1; FULL vec4 texel: 0..0.01; HALF sampler2D picture: 0..1
 //@exempt half_flushed, es_minimum: within 3.0 * exp2(-14.0); the three products of edge_luma
 //@promise in 0..1

@@ -1,11 +1,11 @@
 // One direction of the blur.
 #include "bloom/bloom.glsl"
 
-FRAGMENT_IN FULL vec2 vertex_uv;
+FRAGMENT_IN FULL vec2 vertex_uv;  // FULL: half has 2048 places from 0.5 to 1, fewer than a picture 4096 wide
 uniform HALF sampler2D image;
 FRAGMENT_UNIFORM FULL vec4 texel;  // xy: one texel in the direction of the blur. FULL: as in bloom_bright.frag
 
-// Both taps at that distance.
+// Both taps at that distance. FULL: a uv is made of it.
 //@domain apart: -0.1..0.1; FULL vec2 vertex_uv: 0..1; HALF sampler2D image: 0..8
 //@promise in 0..16
 //@jumps step(0.5, vertex_uv.x - apart.x); step(0.5, vertex_uv.x + apart.x)

@@ -2,11 +2,11 @@
 // mean, so that the glow holds the same light wherever a highlight lies in its block.
 #include "bloom/bloom.glsl"
 
-FRAGMENT_IN FULL vec2 vertex_uv;
+FRAGMENT_IN FULL vec2 vertex_uv;  // FULL: half has 2048 places from 0.5 to 1, fewer than a picture 4096 wide
 uniform HALF sampler2D image;
 FRAGMENT_UNIFORM FULL vec4 texel;  // xy: from one tap to the next. FULL: 1 / 1280 added to a uv is below half's last bit
 
-void main() {
+void main() {  // FULL: uvs
     vec3 sum = vec3(0.0);
     for (int y = 0; y < BLOOM_TAPS; y++) {
         for (int x = 0; x < BLOOM_TAPS; x++) {

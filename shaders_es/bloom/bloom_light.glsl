@@ -4,6 +4,7 @@
 uniform HALF sampler2D bloom;
 FRAGMENT_UNIFORM FULL vec4 bloom_scale;  // xy: from the frame's uv to the glow's. FULL: it multiplies a uv. z strength
 
+// FULL: a uv.
 //@domain uv: 0..1; HALF sampler2D bloom: 0..8; FULL vec4 bloom_scale: 0..1
 //@promise in 0..8; where bloom_scale.z == 0.0: result == vec3(0.0)
 //@jumps step(0.5, uv.x * bloom_scale.x)

@@ -1,5 +1,5 @@
 // Known, heavy work: a timing method that does not see it measures something else.
-FRAGMENT_IN FULL vec2 vertex_at;
+FRAGMENT_IN FULL vec2 vertex_at;  // FULL: no two pixels may be alike
 uniform HALF vec4 seed;  // from outside, so that no compiler can work it out beforehand
 
 void main() {

@@ -1,4 +1,4 @@
-// Where the vertex of a skinned mesh stands in this frame: the weighted sum of its joints' matrices (glTF 2.0, section
+// Vertex stage: where the vertex of a skinned mesh stands in this frame: the weighted sum of its joints' matrices (glTF 2.0, section
 // 3.7.3.3). Every stage that draws meshes includes this file, so that all give the same places to the bit. A mesh that
 // is not skinned compiles none of it.
 #if defined(SKIN_SMALL) || defined(SKIN_LARGE) || defined(SKIN_TEXTURE)

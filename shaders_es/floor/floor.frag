@@ -1,5 +1,5 @@
 // One colour, plus every texture of the material that a define names: what the fetches cost when nothing is lit.
-FRAGMENT_IN FULL vec2 vertex_uv;
+FRAGMENT_IN FULL vec2 vertex_uv;  // FULL: as in surface.vert, which it is compared with
 FRAGMENT_UNIFORM HALF vec4 base_color;
 #ifdef BASE_COLOR_MAP
 uniform HALF sampler2D base_color_map;

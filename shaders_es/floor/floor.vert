@@ -8,7 +8,7 @@ VERTEX_IN vec2 uv;        // steps of uv_range
 uniform highp mat4 clip_from_local;
 uniform highp vec4 uv_range;
 
-VERTEX_OUT FULL vec2 vertex_uv;
+VERTEX_OUT FULL vec2 vertex_uv;  // FULL: as in surface.vert, which it is compared with
 
 void main() {
 #ifdef SKINNED

@@ -3,7 +3,7 @@
 FRAGMENT_UNIFORM HALF vec4 mask;  // x alpha, y cutoff
 #ifdef BASE_COLOR_MAP
 uniform HALF sampler2D base_color_map;
-FRAGMENT_IN FULL vec2 vertex_uv;
+FRAGMENT_IN FULL vec2 vertex_uv;  // FULL: as in surface.vert, so that both leave out the same
 #endif
 #ifdef VERTEX_COLOR
 FRAGMENT_IN HALF float vertex_alpha;

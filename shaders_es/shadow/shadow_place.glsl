@@ -1,4 +1,4 @@
-// Inserted into vertex shaders of surfaces: where a vertex is in the sun's map.
+// Vertex stage, inserted into surfaces: where a vertex is in the sun's map.
 #include "shadow/shadow.glsl"
 
 uniform highp mat4 shadow_from_eye;  // from metres (world axes, origin at the eye) to the map, 0..1 in all three

@@ -5,6 +5,7 @@
 uniform HALF sampler2DShadow shadow_map;  // what a comparison gives is a share; where it looks is FULL
 FRAGMENT_IN FULL vec3 shadow_at;          // FULL: see shadow_place.glsl
 
+// FULL: a 1024th is added to shadow_at.
 //@domain texels: -3..3; FULL vec3 shadow_at: 0..1; HALF sampler2DShadow shadow_map: 0..1
 //@promise in 0..1
 //@jumps step(0.5, shadow_at.x + texels.x / 1024.0)

@@ -168,7 +168,7 @@ void main() {
     vec3 water = water_place();
     vec2 wetness = vec2(0.0);  // 0..1: of what darkens, of what smooths
     float puddle = 0.0;        // 0..1: share of open water
-    FULL vec3 water_normal = vec3(0.0, 1.0, 0.0);
+    FULL vec3 water_normal = vec3(0.0, 1.0, 0.0);  // FULL: it becomes n
     //@insert surface.water
     //@insert surface.water_normal
     //@insert surface.water_material

@@ -12,6 +12,7 @@ vec3 fresnel_schlick(vec3 specular, FULL float l_dot_h) {
 }
 
 // Fresnel of a prefiltered environment: rough surfaces brighten less at grazing angles (the talk, "Glossy Fresnel").
+// FULL: as fresnel_schlick.
 //@domain specular, smoothness, n_dot_v: 0..1
 //@exempt half_flushed, es_minimum: within exp2(-14.0); the fifth power, or what it is multiplied with, is 0 below 2^-14
 //@promise in 0..1; falling n_dot_v; where n_dot_v == 1.0: result == specular
@@ -38,7 +39,7 @@ float smoothness_from_power(float power) { return saturate((log2(power) - 1.0) *
 // (n.h)^power is given as its square root too: direct_light multiplies by the root twice, so that nothing is subnormal in half
 // before the highlight itself is below 2^-14. As one factor the lobe ended there, and (power + 2) / 8 made 0.016 of it.
 #ifdef TIER_REFERENCE
-// As written.
+// As written. FULL: n.h of half has three values inside a highlight.
 //@variant TIER_REFERENCE
 //@domain n, h: unit; power: 1.75..2048
 //@promise in 0..1.002; falling power; where n == h: within(result, 1.0, 0.002)
@@ -49,7 +50,7 @@ float blinn_lobe(FULL vec3 n, FULL vec3 h, float power) { return pow(max(dot(n, 
 float blinn_root(FULL vec3 n, FULL vec3 h, float power) { return pow(max(dot(n, h), 1e-8), 0.5 * power); }
 #else
 // From the chord n - h. With x = |n - h|^2 / 2 = 1 - n.h, ln(1 - x) = -x (1 + x/2 + x^2/3 + x^3/4 ...): at a
-// power of 2048 half's n.h has three values inside the highlight, the chord has hundreds. All is FULL up to the exponent: the
+// power of 2048 half's n.h has three values inside the highlight, the chord has hundreds. FULL: up to the exponent; the
 // difference is what counts, and the series would add four roundings where a wide lobe is dark. The series stops at x^3: at a
 // power of 2 and n.h = 0.15 the lobe is 0.023 too bright, above a power of 8 under 0.001. Where FULL is mediump (0.06 % of the
 // peak), 16 keeps the square of a one-texel highlight (1e-5) above half's smallest normal number. `halfframe accuracy surface`
@@ -88,7 +89,8 @@ float distance_falloff(FULL float distance_squared, FULL float inverse_range_squ
     return min(window * window * inverse_range_squared / max(ratio, 1e-5), 60000.0);
 }
 
-// Spot cone: 0 outside, 1 inside, smooth between. cos_scale = 1 / (cos inner - cos outer).
+// Spot cone: 0 outside, 1 inside, smooth between. cos_scale = 1 / (cos inner - cos outer). FULL: cosine less cos_outer cancels on
+// a narrow edge.
 //@domain cosine, cos_outer: -1..1; cos_scale: 0.5..2048
 //@promise in 0..1; rising cosine; where cosine <= cos_outer: result == 0.0
 float cone_falloff(FULL float cosine, float cos_outer, float cos_scale) {
@@ -122,7 +124,7 @@ vec3 direct_light(vec3 albedo, vec3 specular, float power, FULL vec3 n, FULL vec
 }
 
 // As direct_light, for a sphere instead of a point: the lobe gets lower and wider and keeps its energy, because the power
-// that widens it normalises it too.
+// that widens it normalises it too. FULL: see blinn_root.
 //@domain albedo, specular, ratio: 0..1; power: 2..2048; n, v, l: unit; radiance: 0..400; where (power + 2.0) * max(max(radiance.r, radiance.g), radiance.b) <= 512500.0
 //@exempt half_flushed, es_minimum: within exp2(-14.0) * (1.0 + max(max(radiance.r, radiance.g), radiance.b) * (3.0 + (power + 2.0) * 0.125)); the result and three sums and products are 0 below 2^-14, and Fresnel is before it is multiplied by the peak of the lobe
 //@promise in 0..65504; where dot(n, l) <= 0.0: result == vec3(0.0)

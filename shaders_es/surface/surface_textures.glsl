@@ -33,6 +33,7 @@ uniform HALF sampler2D occlusion_map;
 uniform HALF sampler2D normal_map;
 #endif
 
+// FULL: a uv.
 //@variant TIER_LOW
 //@variant TIER_CONSOLE
 //@domain image: 0..1; at: 0..1

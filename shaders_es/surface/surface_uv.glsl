@@ -1,8 +1,8 @@
 // Fragment stage: which coordinates each texture is read at. One mapping for all textures of a material is made by the vertex
 // stage and nothing is left here; a texture with NAME_UV_B has the second one (common/uv_mapping.glsl).
-FRAGMENT_IN FULL vec2 vertex_uv;
+FRAGMENT_IN FULL vec2 vertex_uv;  // FULL: a 2048-texel repeat is past half's 11 bits
 #ifdef UV_B
-FRAGMENT_IN FULL vec2 vertex_uv_b;  // FULL: as vertex_uv in surface.vert
+FRAGMENT_IN FULL vec2 vertex_uv_b;  // FULL: as vertex_uv
 #define SECOND_UV vertex_uv_b
 #else
 #define SECOND_UV vertex_uv

@@ -4,7 +4,7 @@
 #include "common/packing.glsl"
 #include "tone_map/tone_map.glsl"
 
-FRAGMENT_IN FULL vec2 vertex_uv;
+FRAGMENT_IN FULL vec2 vertex_uv;  // FULL: half has 2048 places from 0.5 to 1, fewer than a picture 4096 wide
 uniform HALF sampler2D scene_color;
 
 //@insert_functions

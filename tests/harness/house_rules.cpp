@@ -247,7 +247,9 @@ Violations dialect_violations(const std::vector<SourceFile>& files) {
         "textureCubeLod", "gl_FragColor", "gl_FragData", "texture2DLodEXT", "textureLod",    "texture"};
     Violations violations;
     for (const SourceFile& file : files) {
-        if (!is_shader(file.path) || file.path.starts_with("shaders_es/dialect/")) continue;
+        if (!is_shader(file.path) || !file.path.starts_with("shaders_es/") ||
+            file.path.starts_with("shaders_es/dialect/"))
+            continue;
         const std::vector<std::string> lines = lines_of(without_comments(file.text));
         for (std::size_t index = 0; index < lines.size(); ++index) {
             for (const std::string_view word : kWords) {
@@ -259,6 +261,46 @@ Violations dialect_violations(const std::vector<SourceFile>& files) {
                 violations.push_back(place(file, index) + "#version is written by the assembly of the shader");
             }
         }
+    }
+    return violations;
+}
+
+Violations precision_violations(const std::vector<SourceFile>& files) {
+    Violations violations;
+    for (const SourceFile& file : files) {
+        if (!is_shader(file.path) || !file.path.starts_with("shaders_es/") ||
+            file.path.starts_with("shaders_es/dialect/"))
+            continue;
+        const bool vertex = file.path.ends_with(".vert") || file.text.starts_with("// Vertex stage");
+        const std::vector<std::string> lines = lines_of(file.text), code = lines_of(without_comments(file.text));
+        bool reason = false;  // in this paragraph, down to this line
+        for (std::size_t i = 0; i < lines.size(); ++i) {
+            if (lines[i].find_first_not_of(' ') == std::string::npos) reason = false;
+            const std::string comment = lines[i].substr(code[i].find_last_not_of(' ') + 1);
+            reason =
+                reason || comment.find("FULL: ") != std::string::npos || comment.find("highp: ") != std::string::npos;
+            const bool says = has_word(code[i], "FULL") || has_word(code[i], "highp");
+            if (!says || reason || code[i].find('#') != std::string::npos) continue;
+            if (vertex && !has_word(code[i], "VERTEX_OUT")) continue;
+            violations.push_back(place(file, i) +
+                                 "FULL or highp without its reason: a comment \"FULL: ...\" on the line "
+                                 "or above it in its paragraph");
+        }
+    }
+    return violations;
+}
+
+Violations screen_violations(const std::vector<SourceFile>& files) {
+    constexpr std::size_t kRows = 70, kColumns = 120;
+    Violations violations;
+    for (const SourceFile& file : files) {
+        if (!file.path.starts_with("engine/effects/") || !file.path.ends_with("/README.md")) continue;
+        std::size_t rows = 0;
+        for (const std::string& line : lines_of(file.text))
+            rows += std::max<std::size_t>((line.size() + kColumns - 1) / kColumns, 1);
+        if (rows > kRows)
+            violations.push_back(file.path + ": " + std::to_string(rows) +
+                                 " rows of 120 columns, over one screen of 70");
     }
     return violations;
 }

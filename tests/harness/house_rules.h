@@ -30,6 +30,15 @@ using Violations = std::vector<std::string>;
 /// Words of one dialect of GLSL ES outside shaders_es/dialect/, in shader texts; comments are not read.
 [[nodiscard]] Violations dialect_violations(const std::vector<SourceFile>& files);
 
+/// FULL and highp without their reason, in shader texts. A reason is a comment that says "FULL: why" or "highp: why",
+/// on the line itself or above it in the same paragraph (lines without an empty one between them). In vertex stages,
+/// files .vert and those that begin with "// Vertex stage", floats are highp anyway: only what they hand on is judged.
+/// Preprocessor lines are not, nor is dialect/.
+[[nodiscard]] Violations precision_violations(const std::vector<SourceFile>& files);
+
+/// READMEs of effects that do not fit one screen: 70 lines, a line counting once for every 120 columns of it.
+[[nodiscard]] Violations screen_violations(const std::vector<SourceFile>& files);
+
 /// C++ past 600 lines and shaders past 240 whose first comment does not say "one file because".
 [[nodiscard]] Violations length_violations(const std::vector<SourceFile>& files);
 

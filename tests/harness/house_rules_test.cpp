@@ -109,6 +109,36 @@ TEST(Dialect, EachWordIsFound) {
     expect_none(dialect_violations({{"shaders_es/dialect/es100.glsl", "#define sample_2d texture2D\n"}}));
 }
 
+TEST(Precision, EachFullAndHighpHasItsReason) { expect_none(precision_violations(repository())); }
+
+TEST(Precision, EachWithoutIsFound) {
+    const auto in = [](const std::string& path, const std::string& text) {
+        return precision_violations({{"shaders_es/" + path, text}});
+    };
+    expect_one(in("a/a.glsl", "// A.\nFULL float f(float x);\n"), "shaders_es/a/a.glsl:2");
+    expect_one(in("a/a.frag", "// A.\nuniform highp vec4 x;  // metres\n"), "a.frag:2");
+    expect_one(in("a/a.frag", "// FULL: metres.\nFULL vec3 a;\n\nFULL vec3 b;\n"), "a.frag:4");
+    expect_one(in("a/a.frag", "FULL vec3 a;\n// FULL: too late.\nFULL vec3 b;\n"), "a.frag:1");
+    expect_one(in("a/a.frag", "//@domain highp vec4 x: 0..1\nFULL vec3 a;\n"), "a.frag:2");
+    expect_one(in("a/a.vert", "// A.\nuniform highp mat4 m;\nVERTEX_OUT FULL vec3 at;\n"), "a.vert:3");
+    expect_one(in("a/a.glsl", "// Vertex stage: a.\nhighp vec3 x;\nVERTEX_OUT FULL vec3 at;\n"), "a.glsl:3");
+    expect_none(
+        in("a/a.frag",
+           "FULL vec3 a;  // FULL: metres\n// FULL: a uv.\nFULL float f(FULL vec2 uv) {\n    FULL vec2 x;\n}\n"));
+    expect_none(in("a/a.frag", "#define HALF highp\n// highp is a word here\nFULLER x;\n"));
+    expect_none(in("dialect/es300.glsl", "precision highp float;\n"));
+}
+
+TEST(Screen, EachEffectFitsOne) {
+    expect_none(screen_violations(repository()));
+    std::string long_text;
+    for (int line = 0; line < 69; ++line) long_text += "\n";
+    expect_none(screen_violations(
+        {{"engine/effects/a/README.md", long_text + "a\n"}, {"engine/README.md", long_text + long_text}}));
+    expect_one(screen_violations({{"engine/effects/a/README.md", long_text + std::string(121, 'a') + "\n"}}),
+               "71 rows");
+}
+
 TEST(Length, FilesAreShortOrSayWhyNot) {
     expect_none(length_violations(repository()));
     std::string body;

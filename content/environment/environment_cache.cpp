@@ -3,11 +3,14 @@
 #include "content/environment/environment_cache.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <system_error>
+#include <thread>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -111,12 +114,14 @@ std::optional<std::string> write_cache(const std::filesystem::path& file, const 
     std::error_code error;
     std::filesystem::create_directories(file.parent_path(), error);
     std::filesystem::path beside = file;
-    beside += fmt::format(".{}.part", ::getpid());
-    {
+    // Other processes, and other threads of this one, may be at the same file.
+    beside += fmt::format(".{}.{:x}.part", ::getpid(), std::hash<std::thread::id>{}(std::this_thread::get_id()));
+    if (!error) {
+        errno = 0;
         std::ofstream stream(beside, std::ios::binary | std::ios::trunc);
         stream << content;
         stream.close();
-        if (!stream && !error) error = std::make_error_code(std::errc::io_error);
+        if (!stream) error = {errno != 0 ? errno : EIO, std::generic_category()};
     }
     if (!error) std::filesystem::rename(beside, file, error);
     if (!error) return {};

@@ -1,11 +1,18 @@
 // The cache on disk: what comes out is what went in, or it is made anew. And the built-in environments themselves.
+#include <array>
+#include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <system_error>
+#include <thread>
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include "content/content.h"
+#include "content/environment/environment_cache.h"
 #include "engine/error.h"
 #include "tests/content/environment_reference.h"
 #include "tests/content/temporary_gltf.h"
@@ -93,6 +100,45 @@ TEST(EnvironmentCache, AFolderThatCannotBeWrittenIsANotice) {
     ASSERT_EQ(made.notices.size(), 2u);
     EXPECT_NE(made.notices[1].find("cannot be written"), std::string::npos) << made.notices[1];
     EXPECT_EQ(made.map.levels, content::environment(file, {.size = 16, .threads = 1}).map.levels);
+}
+
+TEST(EnvironmentCache, AFullDiskIsANoticeThatSaysSoAndLeavesNothing) {
+    const TemporaryFolder folder;
+    const std::string file = lamp_file(folder, "lamp.hdr", 200);
+    const EnvironmentOptions options{.size = 16, .threads = 1, .cache_folder = folder.path() / "cache"};
+    rlimit before{};
+    ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+    const auto handler = std::signal(SIGXFSZ, SIG_IGN);  // the write fails instead
+    const rlimit small{.rlim_cur = 4096, .rlim_max = before.rlim_max};
+    ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+    const LoadedEnvironment made = content::environment(file, options);
+    ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
+    std::signal(SIGXFSZ, handler);
+    ASSERT_EQ(made.notices.size(), 2u);
+    EXPECT_NE(made.notices[1].find(std::generic_category().message(EFBIG)), std::string::npos) << made.notices[1];
+    EXPECT_TRUE(files_in(options.cache_folder).empty());
+    expect_equal(content::environment(file, options), content::environment(file, {.size = 16, .threads = 1}));
+}
+
+TEST(EnvironmentCache, ThreadsThatKeepTheSameEnvironmentAtOnceDoNotDisturbEachOther) {
+    const TemporaryFolder folder;
+    const std::string file = lamp_file(folder, "lamp.hdr", 200);
+    content::StoredEnvironment stored;
+    stored.map = content::environment(file, {.size = 64, .threads = 1}).map;
+    const std::filesystem::path kept = folder.path() / "cache" / "one.environment";
+    std::array<std::vector<std::string>, 4> notices;
+    std::vector<std::thread> threads;
+    for (std::vector<std::string>& mine : notices) {
+        threads.emplace_back([&] {
+            for (int i = 0; i < 20; ++i) {
+                if (const auto notice = content::write_cache(kept, stored)) mine.push_back(*notice);
+                if (!content::read_cache(kept, 64)) mine.push_back("a file that is not whole");
+            }
+        });
+    }
+    for (std::thread& thread : threads) thread.join();
+    for (const std::vector<std::string>& mine : notices) EXPECT_TRUE(mine.empty()) << mine.front();
+    EXPECT_EQ(files_in(kept.parent_path()).size(), 1u);
 }
 
 TEST(EnvironmentCache, StoppedWorkLeavesNothing) {

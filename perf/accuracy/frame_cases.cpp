@@ -192,7 +192,14 @@ std::vector<FrameCase> light_cases() {
     near_things.change = "lamps 5 cm from things, lights times 10^4";
     near_things.plain = lamps_near_things;
     near_things.changed = [] { return with_lights_times(lamps_near_things(), 1e4f); };
-    return {exposed, bright, near_things, reversed, halved};
+    FrameCase blinding = bright;
+    blinding.change = "exposure times 10^6";
+    blinding.changed = [] {
+        Shot shot = room();
+        shot.camera.exposure *= 1e6f;
+        return shot;
+    };
+    return {exposed, bright, near_things, blinding, reversed, halved};
 }
 
 std::vector<FrameCase> eye_cases() {

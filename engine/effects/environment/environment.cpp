@@ -98,9 +98,13 @@ public:
             gl.Uniform4fv(adopted.scale, 1, &value.x);
         }
         if (adopted.terms >= 0) {
+            // Nine terms of at most 6000 sum to less than half's 65504; in half inf - inf would be NaN.
+            float largest = 1e-6f;
+            for (const glm::vec3& term : map_.irradiance)
+                largest = std::max({largest, std::abs(term.r), std::abs(term.g), std::abs(term.b)});
+            const float exposure = std::min(view.exposure, 6000.0f / largest);
             std::array<glm::vec4, 9> terms{};
-            for (std::size_t i = 0; i < terms.size(); ++i)
-                terms[i] = glm::vec4(map_.irradiance[i] * view.exposure, 0.0f);
+            for (std::size_t i = 0; i < terms.size(); ++i) terms[i] = glm::vec4(map_.irradiance[i] * exposure, 0.0f);
             gl.Uniform4fv(adopted.terms, static_cast<GLsizei>(terms.size()), &terms[0].x);
         }
         if (sharp_) renderer.bind_cube(kReflectionUnit, sharp_.name());

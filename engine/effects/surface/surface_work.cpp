@@ -99,6 +99,10 @@ const Material& material_of(const Renderer& renderer, const Surface& surface) {
     return renderer.material(surface.material);
 }
 
+/// Light as shaders get it, exposed. Half ends at 65504, and inf times a 0 (in shadow, out of reach) would be NaN;
+/// 60000 is white 7500 times over.
+glm::vec3 exposed(const glm::vec3& light, float exposure) { return glm::min(light * exposure, glm::vec3(60000.0f)); }
+
 }  // namespace
 
 std::vector<std::string_view> SurfaceWork::defines_of(const Renderer& renderer, const Surface& surface,
@@ -315,11 +319,11 @@ void SurfaceWork::set_variant(Renderer& renderer, const View& view, Variant& var
     variant.told_uv_range = variant.told_uv1_range = variant.told_direction_scale = variant.told_toward_eye =
         glm::vec4(unknown);
     renderer.use(*variant.program);
-    set(gl, variant.ambient, glm::vec4(renderer.scene().ambient * view.exposure, 0.0f));
+    set(gl, variant.ambient, glm::vec4(exposed(renderer.scene().ambient, view.exposure), 0.0f));
     set(gl, variant.parallel_eye, view.orthographic ? glm::vec4(direction_to_eye(view), 0.0f) : kNotParallel);
     if (sun_) {
         set(gl, variant.sun_direction, glm::vec4(-glm::normalize(sun_->direction), 0.0f));
-        set(gl, variant.sun_color, glm::vec4(sun_->color * view.exposure, 0.0f));
+        set(gl, variant.sun_color, glm::vec4(exposed(sun_->color, view.exposure), 0.0f));
     }
 }
 
@@ -331,7 +335,7 @@ glm::vec4 SurfaceWork::base_color_of(const Renderer& renderer, const View& view,
     if (is_unlit(material)) {
         if (renderer.tier_of(card_.name) == Tier::low) color = glm::convertLinearToSRGB(color);
     } else if (unlit) {
-        color *= view.exposure;
+        color = exposed(color, view.exposure);
     }
     return {color, material.base_color.a};
 }
@@ -340,7 +344,7 @@ void SurfaceWork::set_material(Renderer& renderer, const View& view, const Varia
     gl::EntryPoints& gl = renderer.gl();
     const Material& material = renderer.material(draw.material);
     set(gl, variant.base_color, base_color_of(renderer, view, material, variant.factors < 0));
-    const glm::vec3 emissive = is_unlit(material) ? glm::vec3(0.0f) : material.emissive * view.exposure;
+    const glm::vec3 emissive = is_unlit(material) ? glm::vec3(0.0f) : exposed(material.emissive, view.exposure);
     set(gl, variant.emissive, glm::vec4(emissive, material.alpha_cutoff));
     set(gl, variant.factors, factors_of(material, variant.maps_roughness));
     set(gl, variant.specular_factors, specular_factors_of(material));

@@ -140,12 +140,78 @@ Tier tier_for(std::string_view effect, Tier tier, const Wishes& wishes, const gl
     return tier;
 }
 
+bool is_named(std::string_view effect, const Wishes& wishes) {
+    return std::ranges::any_of(wishes.effect_tiers, [&](const auto& wish) { return wish.first == effect; });
+}
+
+/// The tier of every card: as wished, and that of the effect whose shaders a card draws with (transparent: surface's).
+std::vector<Tier> tiers_of(std::span<const EffectCard* const> cards, Tier tier, const Wishes& wishes,
+                           const gl::Caps& caps) {
+    std::vector<Tier> tiers;
+    for (const EffectCard* card : cards) {
+        tiers.push_back(tier_for(card->name, tier, wishes, caps));
+        if (is_named(card->name, wishes)) continue;
+        for (std::size_t i = 0; i + 1 < tiers.size(); ++i) {
+            const auto& theirs = cards[i]->tiers[0].shaders;
+            const auto& own = card->tiers[0].shaders;
+            if (!own.empty() && !theirs.empty() && own.front().fragment == theirs.front().fragment)
+                tiers.back() = tiers[i];
+        }
+    }
+    return tiers;
+}
+
 std::optional<bool> switch_for(std::string_view effect, const Wishes& wishes) {
     std::optional<bool> on;
     for (const auto& [wished_effect, wished] : wishes.effect_switches) {
         if (wished_effect == effect) on = wished;
     }
     return on;
+}
+
+PlanContext at_tier(const PlanContext& context, Tier tier) {
+    return {context.scene, context.view, context.caps, tier, context.arithmetic, context.storage, context.plan};
+}
+
+/// What `card` adds to the shaders of `host`, as words to compare.
+std::vector<std::string> added_to(const EffectCard& card, const PlanContext& context, const EffectCard& host,
+                                  Tier host_tier) {
+    std::vector<std::string> added;
+    if (card.insertions == nullptr) return added;
+    for (const gl::Insertion& one : card.insertions(context)) {
+        for (const ShaderVariant& variant : host.tiers[static_cast<std::size_t>(host_tier)].shaders) {
+            if (!std::string_view(one.point).starts_with(insertion_prefix(variant))) continue;
+            added.push_back(fmt::format("{} {}", one.file != nullptr ? one.file : "", one.code));
+            break;
+        }
+    }
+    return added;
+}
+
+/// `context`'s tier; that of the effect whose shaders the card's code goes into, where it adds something else at that
+/// tier. What is added is compiled with them: at low they are ES 1.00, and elsewhere other stages belong together.
+Tier fitting_tier(const EffectCard& card, const PlanContext& context, std::span<const EffectCard* const> cards,
+                  std::span<const Tier> tiers, const Wishes& wishes) {
+    Tier tier = context.tier;
+    if (card.insertions == nullptr || !switch_for(card.name, wishes).value_or(card.called_for(context).called_for))
+        return tier;
+    bool may_follow = !is_named(card.name, wishes);
+    for (std::size_t i = 0; i < cards.size(); ++i) {
+        const EffectCard& host = *cards[i];
+        const std::vector<std::string> added = added_to(card, at_tier(context, tier), host, tiers[i]);
+        if (added.empty() || !host.called_for(at_tier(context, tiers[i])).called_for) continue;
+        if (added != added_to(card, at_tier(context, tiers[i]), host, tiers[i])) {
+            if (!may_follow) {
+                throw Error(Fault::usage,
+                            fmt::format("{0} at {1} adds code to the shaders of {2} that {2} at {3} cannot hold; use "
+                                        "--tier {0}={3} or --tier {2}={1}",
+                                        card.name, name(tier), host.name, name(tiers[i])));
+            }
+            tier = tiers[i];
+        }
+        may_follow = false;
+    }
+    return tier;
 }
 
 void check_names(const Wishes& wishes, std::span<const EffectCard* const> cards) {
@@ -305,9 +371,11 @@ FramePlan planned(const Storage& storage, const Scene& scene, const View& view, 
                                               "--census out or use --device native",
                                               caps.device));
     }
-    for (const EffectCard* card : cards) {
-        const Tier tier = tier_for(card->name, plan.tier, wishes, caps);
-        decide(*card, {scene, view, caps, tier, plan.arithmetic, plan.storage, plan}, wishes, plan);
+    const std::vector<Tier> tiers = tiers_of(cards, plan.tier, wishes, caps);
+    for (std::size_t i = 0; i < cards.size(); ++i) {
+        const PlanContext wished{scene, view, caps, tiers[i], plan.arithmetic, plan.storage, plan};
+        const Tier tier = fitting_tier(*cards[i], wished, cards, tiers, wishes);
+        decide(*cards[i], {scene, view, caps, tier, plan.arithmetic, plan.storage, plan}, wishes, plan);
     }
     std::ranges::stable_sort(plan.passes, {}, &Pass::order);
     const glm::vec4 background = background_in(scene.background, plan.storage);

@@ -132,6 +132,34 @@ TEST(Plan, RefusesWhatTheDeviceCannot) {
     EXPECT_NE(refusal(square_scene(), {.census = true}, poor_caps()).find("RGBA32F"), std::string::npos);
 }
 
+TEST(Plan, CodeGoesWithTheShadersThatItIsAddedTo) {
+    Scene scene = blended_scene();
+    scene.environment = EnvironmentMap{};
+    const auto tier_of = [&](const Wishes& wishes, const char* effect) {
+        return plan(scene, wishes).find(effect)->tier;
+    };
+    // At low shaders are ES 1.00, and the diffuse light of an environment comes from the vertex stage.
+    const Wishes low_surface{.tier = Tier::console, .effect_tiers = {{"surface", Tier::low}}};
+    for (const char* effect : {"surface", "transparent", "environment"})
+        EXPECT_EQ(tier_of(low_surface, effect), Tier::low) << effect;
+    EXPECT_EQ(tier_of(low_surface, "tone_map"), Tier::console) << "it adds the same at every tier, or nothing";
+    const Wishes fine_surface{.tier = Tier::low, .effect_tiers = {{"surface", Tier::reference}}};
+    EXPECT_EQ(tier_of(fine_surface, "environment"), Tier::reference);
+    // What was asked for by name is not changed but refused.
+    for (const auto& [surface, environment] : {std::pair{Tier::low, Tier::console}, {Tier::console, Tier::low}}) {
+        const Wishes both{.tier = surface, .effect_tiers = {{"environment", environment}}};
+        const std::string why = refusal(scene, both);
+        EXPECT_NE(why.find("--tier environment="), std::string::npos) << why;
+        EXPECT_NE(why.find("--tier surface="), std::string::npos) << why;
+    }
+    const Wishes apart{.tier = Tier::console, .effect_tiers = {{"transparent", Tier::low}}};
+    EXPECT_NE(refusal(scene, apart).find("transparent at low"), std::string::npos);
+    scene.surfaces.pop_back();
+    EXPECT_EQ(tier_of(apart, "environment"), Tier::console) << "nothing blends, so there is nothing to fit";
+    scene.environment.reset();
+    EXPECT_EQ(tier_of({.tier = Tier::low, .effect_tiers = {{"surface", Tier::console}}}, "surface"), Tier::console);
+}
+
 TEST(Plan, RefusesADevicePoorerThanAnyTier) {
     gl::Caps caps = poor_caps();
     caps.max_fragment_uniform_vectors = 15;

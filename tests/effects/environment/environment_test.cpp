@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "content/content.h"
 #include "engine/effects/environment/environment_reference.h"
 #include "shaders_es/environment/environment_limits.h"
 #include "tests/effects/lit_square.h"
@@ -180,6 +181,23 @@ TEST_F(Environment, ExposureScalesWhatItGives) {
     view.exposure = 3.0f;
     for (const Case& test_case : kCases)
         EXPECT_NEAR(centre(scene, view, test_case).r, 0.75, 0.75 * test_case.tolerance) << title(test_case);
+}
+
+TEST_F(Environment, FollowsASurfaceOfAnotherTierAndDraws) {
+    // With a sun and a normal map: what is added differs between low and the others there.
+    const Scene scene = [] {
+        Scene room = content::open_scene("test_room");
+        room.environment = uniform_map(glm::vec3(0.5f));
+        return room;
+    }();
+    const View view = view_of(scene.cameras.at(0), 32, 18);
+    for (const Tier tier : {Tier::low, Tier::console, Tier::reference}) {
+        for (const Tier surface : {Tier::low, Tier::console, Tier::reference}) {
+            const auto drawn = render(scene, view, {.tier = tier, .effect_tiers = {{"surface", surface}}});
+            EXPECT_TRUE(drawn.plan.find("environment")->in);
+            EXPECT_EQ(drawn.plan.find("environment")->tier == Tier::low, surface == Tier::low) << name(tier);
+        }
+    }
 }
 
 TEST(Rgbm, EveryLightComesBackWithinAHundredth) {

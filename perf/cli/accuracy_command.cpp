@@ -27,6 +27,7 @@
 #include "perf/cli/spelling.h"
 #include "perf/cli/terminal.h"
 #include "perf/measure/precision_probe.h"
+#include "perf/report/lettering.h"
 #include "perf/report/picture_file.h"
 
 namespace halfframe::cli {
@@ -136,7 +137,8 @@ private:
             throw Error(Fault::usage,
                         "--maps: the effects named have no models to map; without a name, all are measured");
         }
-        perf::write_png(maps_, accuracy::error_maps(models));
+        constexpr int kLetters_px = 16;
+        perf::write_png(maps_, accuracy::error_maps(models, perf::Lettering(perf::find_font(), kLetters_px)));
     }
 
     [[nodiscard]] std::vector<accuracy::FrameCase> chosen_frames() const {

@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 #include <string>
 
 #include "engine/effects/environment/environment_reference.h"
 #include "engine/effects/surface/surface_model_reference.h"
 #include "engine/effects/surface/surface_reference.h"
+#include "engine/error.h"
 #include "perf/accuracy/error_map.h"
 #include "perf/accuracy/model_list.h"
 
@@ -204,17 +206,39 @@ TEST(ErrorMap, IsRedWhereTooBrightAndHasTheSmallestValueLowerLeft) {
                                        {{1.0, 1.0, 1.0}, -0.2}};
     };
     const ModelAccuracy model = measure(entry);
-    const Picture picture = error_maps({&model, 1});
-    ASSERT_EQ(picture.width, 12);
-    ASSERT_EQ(picture.height, 12);
-    const auto colour = [&](int x, int y) {
-        const std::size_t at = static_cast<std::size_t>(y * picture.width + x) * 4;
-        return std::array<int, 3>{picture.rgba[at], picture.rgba[at + 1], picture.rgba[at + 2]};
-    };
-    EXPECT_EQ(colour(0, 11), (std::array<int, 3>{255, 0, 0}));
-    EXPECT_EQ(colour(11, 11), (std::array<int, 3>{255, 255, 255}));
-    EXPECT_EQ(colour(0, 0), (std::array<int, 3>{128, 128, 255}));
-    EXPECT_EQ(colour(11, 0), (std::array<int, 3>{255, 255, 255})) << "the mean of what lies over one place";
+    std::filesystem::path font;
+    try {
+        font = perf::find_font();
+    } catch (const Error& error) {
+        GTEST_SKIP() << error.what();
+    }
+    const perf::Lettering lettering(font, 16);
+    const std::vector<ModelAccuracy> models(5, model);
+    const Picture picture = error_maps(models, lettering);
+    for (const std::size_t map : {0u, 4u}) {
+        const MapPlace place = map_place(map, lettering.height());
+        const auto colour = [&](int right, int up) {  // halves of the map
+            const int x = place.x + (2 * right + 1) * place.width / 4;
+            const int y = place.y + (3 - 2 * up) * place.height / 4;
+            const std::size_t at = static_cast<std::size_t>(y * picture.width + x) * 4;
+            return std::array<int, 3>{picture.rgba[at], picture.rgba[at + 1], picture.rgba[at + 2]};
+        };
+        EXPECT_EQ(colour(0, 0), (std::array<int, 3>{255, 0, 0}));
+        EXPECT_EQ(colour(1, 0), (std::array<int, 3>{255, 255, 255}));
+        EXPECT_EQ(colour(0, 1), (std::array<int, 3>{128, 128, 255}));
+        EXPECT_EQ(colour(1, 1), (std::array<int, 3>{255, 255, 255})) << "the mean of what lies over one place";
+        // Something is written above and below, and nothing outside.
+        const auto dark = [&](int top, int bottom) {
+            int count = 0;
+            for (int y = top; y < bottom; ++y) {
+                for (int x = place.x; x < place.x + place.width; ++x)
+                    count += picture.rgba[static_cast<std::size_t>(y * picture.width + x) * 4] < 100 ? 1 : 0;
+            }
+            return count;
+        };
+        EXPECT_GT(dark(place.y - 32, place.y - 1), 100);
+        EXPECT_GT(dark(place.y + place.height + 1, place.y + place.height + 32), 100);
+    }
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ TEST_F(EsDriver, LinksEveryReferenceVariant) {
 }
 
 TEST_F(EsDriver, RefusesAPlantedFault) {
-    const std::vector<NamedProgram> programs = every_variant(Tier::low);
+    const std::vector<NamedProgram> programs = programs_without_card();
     ASSERT_FALSE(programs.empty());
     gl::ProgramDescription broken = programs.front().description;
     broken.defines.emplace_back("main", "broken +");

@@ -97,6 +97,16 @@ gl::Caps rich_caps() {
     return caps;
 }
 
+/// Made once a process: four of them filter an environment, a second each.
+const std::vector<Scene>& scenes() {
+    static const std::vector<Scene> kScenes = [] {
+        std::vector<Scene> made;
+        for (const content::BuiltInScene& built_in : content::built_in_scenes()) made.push_back(built_in.make());
+        return made;
+    }();
+    return kScenes;
+}
+
 std::set<std::string> stage_files_of(std::span<const EffectCard* const> cards) {
     std::set<std::string> files;
     for (const EffectCard* card : cards) {
@@ -145,8 +155,8 @@ std::vector<std::vector<gl::Insertion>> every_insertion_set(Tier tier, std::span
         const auto equal = [&](const auto& other) { return same(set, other); };
         if (!set.empty() && std::none_of(sets.begin(), sets.end(), equal)) sets.push_back(set);
     };
-    for (const content::BuiltInScene& built_in : content::built_in_scenes()) {
-        const Scene scene = built_in.make();
+    if (std::ranges::all_of(cards, [](const EffectCard* card) { return card->insertions == nullptr; })) return sets;
+    for (const Scene& scene : scenes()) {
         const Camera camera = scene.cameras.empty() ? camera_framing(world_box(scene), 1.0f) : scene.cameras.front();
         const View view = view_of(camera, 64, 64);
         for (const gl::PixelFormat storage : kStorages) {

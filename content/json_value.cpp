@@ -49,8 +49,8 @@ struct JsonDocument::Storage {
     JsonValue root;
 };
 
-/// What nlohmann::json::sax_parse() calls. Elements and members of what is open wait on stacks, in chunks that are
-/// given back while the closed array or object is filled from its end.
+/// What nlohmann::json::sax_parse() calls. Elements and members of what is open wait on stacks, which at most double
+/// the memory of the values.
 class JsonBuilder {
 public:
     JsonBuilder(std::pmr::memory_resource& blocks, std::deque<std::string>& texts, int deepest)

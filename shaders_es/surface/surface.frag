@@ -146,9 +146,12 @@ void main() {
 #endif
 
     // FULL: the highlight is the difference of n and h (see blinn_lobe).
+#ifndef NORMAL_MAP
     FULL vec3 n = normalize(vertex_normal);
-#ifdef NORMAL_MAP
-    FULL vec3 t = normalize(vertex_tangent.xyz - n * dot(n, vertex_tangent.xyz) + vec3(0.0, 0.0, 1e-4));
+#else
+    // Neither is normalised nor made upright, so that a map shows what it was baked for (M. Mikkelsen, MikkTSpace, 2011).
+    FULL vec3 n = vertex_normal;
+    FULL vec3 t = vertex_tangent.xyz;
     FULL vec3 b = cross(n, t) * vertex_tangent.w;
 #ifdef ONE_FETCH
     FULL vec3 bump = vec3(packed_map.xy * 2.0 - 1.0, 0.0);

@@ -38,7 +38,9 @@ FRAGMENT_UNIFORM HALF vec4 emissive;  // rgb; w alpha cutoff
 FRAGMENT_UNIFORM HALF vec4 factors;
 FRAGMENT_UNIFORM HALF vec4 ambient;  // rgb
 FRAGMENT_UNIFORM HALF vec4 specular_factors;  // rgb specular of a dielectric (or of the material); w occlusion strength
+#ifndef TIER_LOW
 FRAGMENT_UNIFORM HALF vec4 parallel_eye;  // orthographic: xyz direction to the eye, w 0; else 0, 0, 0, 1
+#endif
 #if defined(PACKED_MAPS) && defined(NORMAL_MAP) && !defined(SPECULAR_GLOSSINESS)
 #define ONE_FETCH  // normal_map: rg normal x and y, b metallic, a roughness; texture_storage.h packs it
 #endif
@@ -165,7 +167,11 @@ void main() {
 #ifdef DOUBLE_SIDED
     n = gl_FrontFacing ? n : -n;
 #endif
-    FULL vec3 v = normalize(vertex_to_eye * parallel_eye.w + parallel_eye.xyz);  // FULL: h is made of it
+#ifdef TIER_LOW
+    FULL vec3 v = normalize(vertex_to_eye);  // FULL: h is made of it
+#else
+    FULL vec3 v = normalize(vertex_to_eye * parallel_eye.w + parallel_eye.xyz);
+#endif
 
 #ifdef WATER
     vec3 water = water_place();

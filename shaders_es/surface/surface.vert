@@ -86,7 +86,12 @@ void main() {
     gl_PointSize = 4.0;
 #endif
     vec3 at = (eye_from_local * vec4(place, 1.0)).xyz;
+#ifdef TIER_LOW
+    // Fragments need no more of it than its direction: that of an orthographic view comes from here.
+    vertex_to_eye = dot(toward_eye.xyz, toward_eye.xyz) > 0.5 ? toward_eye.xyz : -at * toward_eye.w;
+#else
     vertex_to_eye = -at * toward_eye.w;
+#endif
     vertex_uv = first_uv();
 #ifdef UV_B
     vertex_uv_b = second_uv();

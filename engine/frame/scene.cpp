@@ -11,6 +11,7 @@
 
 #include "engine/error.h"
 #include "engine/frame/skinning.h"
+#include "shaders_es/surface/surface_limits.h"
 
 namespace halfframe {
 namespace {
@@ -101,6 +102,25 @@ Box box_of(std::span<const glm::vec3> points) {
 }
 
 }  // namespace
+
+float power_of(float roughness) {
+    const float alpha_squared = std::pow(roughness, 4.0f);
+    const auto least = static_cast<float>(2.0 / (SURFACE_POWER_MAX + 2.0));
+    return std::max(2.0f / std::max(alpha_squared, least) - 2.0f, static_cast<float>(SURFACE_POWER_MIN));
+}
+
+float smoothness_of_power(float power) { return std::clamp((std::log2(power) - 1.0f) * 0.1f, 0.0f, 1.0f); }
+
+float smoothness_of(float roughness) { return smoothness_of_power(power_of(roughness)); }
+
+float unmapped_roughness(const Material& material) {
+    return material.model == MaterialModel::specular_glossiness ? 1.0f - material.smoothness : material.roughness;
+}
+
+bool maps_smoothness(const Material& material) {
+    return material.model == MaterialModel::specular_glossiness ? bool(material.specular_smoothness_texture)
+                                                                : bool(material.metallic_roughness_texture);
+}
 
 Box local_box(const Mesh& mesh) {
     if (mesh.indices.empty()) return box_of(mesh.positions);

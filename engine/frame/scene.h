@@ -128,6 +128,16 @@ struct Material {
     UvMapping water_uv;
 };
 
+/// Blinn power 2..2048 of a roughness 0..1 and smoothness 0..1 of both, as shaders_es/surface/surface.glsl makes them.
+[[nodiscard]] float power_of(float roughness);
+[[nodiscard]] float smoothness_of_power(float power);
+[[nodiscard]] float smoothness_of(float roughness);
+
+/// Roughness 0..1 of a lit material without its textures.
+[[nodiscard]] float unmapped_roughness(const Material& material);
+/// A texture says how smooth a lit material is.
+[[nodiscard]] bool maps_smoothness(const Material& material);
+
 /// One drawn thing: a mesh with a material at a place.
 struct Surface {
     std::string name;

@@ -140,4 +140,12 @@ ModelEntry reflection_between_levels(LevelOfSmoothness level) {
             .mean = {1.62, "1.57; not bent it is 1.65, bent by 0.8 of f (1 - f) 1.9"}};
 }
 
+ModelEntry reflection_of_constant_smoothness(LevelOfSmoothness level) {
+    ModelEntry entry = reflection_between_levels(level);
+    entry.model = "reflection, a cube for one smoothness";
+    entry.largest = {17.5, "17.0; to a quarter of a level 21.2, to half of one more"};
+    entry.mean = {1.65, "1.62: an eighth of a level is 8 % of the width of a lobe at most; to a quarter it is 1.89"};
+    return entry;
+}
+
 }  // namespace halfframe::accuracy

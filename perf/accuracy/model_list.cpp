@@ -49,6 +49,7 @@ std::vector<ModelEntry> model_list() {
                                       glossy_fresnel_of_split_sum(&reference::fresnel_glossy),
                                       reflection_of_integral(&reference::fresnel_glossy),
                                       reflection_between_levels(&reference::reflection_level),
+                                      reflection_of_constant_smoothness(&reference::constant_reflection_level),
                                       diffuse_light_of_film(&reference::wet_material),
                                       mirrored_light_of_film(&reference::wet_material),
                                       radiance_of_film(&reference::wet_material),

@@ -48,6 +48,7 @@ struct ModelAccuracy {
 // The models of the environment; a test may plant another glossy Fresnel, or another level for a smoothness 0..1.
 using LevelOfSmoothness = double (*)(double smoothness, double roughest_level);
 [[nodiscard]] ModelEntry reflection_between_levels(LevelOfSmoothness level);
+[[nodiscard]] ModelEntry reflection_of_constant_smoothness(LevelOfSmoothness level);
 
 // The models of the surface, with what a test may plant: how a roughness becomes a power, how a smoothness brightens.
 using PowerOfRoughness = double (*)(double roughness);

@@ -1,9 +1,7 @@
 // Fragment stage, console and reference: one fetch from the level that was smoothed for the surface's power.
 #include "environment/environment.glsl"
 #include "environment/environment_by_vertex.glsl"
-
-uniform HALF samplerCube reflection_map;
-FRAGMENT_UNIFORM HALF vec4 reflection_scale;  // x: root of the range and exposure (RGBM8) or the exposure (float); y: roughest level
+#include "environment/environment_one_level.glsl"
 
 #ifdef IRRADIANCE_BY_VERTEX
 FRAGMENT_IN HALF vec3 vertex_irradiance;
@@ -22,6 +20,9 @@ vec3 environment_irradiance(vec3 n) {
 }
 #endif
 
+#ifndef ONE_LEVEL
+uniform HALF samplerCube reflection_map;
+
 // Half is enough for a direction here: its 11 bits are a thirtieth of a degree, a texel of the largest cube half a degree.
 //@variant TIER_CONSOLE
 //@variant TIER_REFERENCE
@@ -36,3 +37,4 @@ vec3 environment_reflection(vec3 toward, float smoothness) {
     return unpacked_rgbm(stored, reflection_scale.x);
 #endif
 }
+#endif

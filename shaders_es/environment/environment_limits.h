@@ -7,3 +7,6 @@
 /* Low tier: smoothness of the two cubes that stand in for a chain of levels. 0.75 is a power of 362, 0.35 of 23. */
 #define ENVIRONMENT_SHARP 0.75
 #define ENVIRONMENT_ROUGH 0.35
+
+/* Surfaces of one smoothness read a cube that is made for it, in this many steps from one level to the next. */
+#define ENVIRONMENT_STEPS 8

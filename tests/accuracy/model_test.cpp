@@ -74,8 +74,15 @@ TEST(Models, AnotherReflectionOfTheEnvironmentIsCaught) {
     const LevelOfSmoothness too_sharp = [](double smoothness, double roughest) {
         return 0.9 * (1.0 - smoothness) * roughest;
     };
+    const LevelOfSmoothness to_a_quarter = [](double smoothness, double roughest) {
+        return std::round(4.0 * reference::reflection_level(smoothness, roughest)) / 4.0;
+    };
     for (const LevelOfSmoothness wrong : {unbent, nearest, too_sharp}) {
         const ModelAccuracy found = measure(reflection_between_levels(wrong));
+        EXPECT_FALSE(found.violations.empty()) << found.mean << " " << found.lowest << " " << found.highest;
+    }
+    for (const LevelOfSmoothness wrong : {nearest, too_sharp, to_a_quarter}) {
+        const ModelAccuracy found = measure(reflection_of_constant_smoothness(wrong));
         EXPECT_FALSE(found.violations.empty()) << found.mean << " " << found.lowest << " " << found.highest;
     }
 }

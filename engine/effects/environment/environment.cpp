@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include <fmt/format.h>
 
@@ -37,6 +38,15 @@ Demand called_for(const PlanContext& context) {
     return {true, fmt::format("the scene is lit by the environment {}", scene.environment->name)};
 }
 
+/// Where every place is equally smooth its light comes from one cube:
+/// shaders_es/environment/environment_one_level.glsl.
+void add_defines(const Renderer& renderer, int index, std::vector<std::string_view>& defines) {
+    const Surface& surface = renderer.scene().surfaces[static_cast<std::size_t>(index)];
+    const bool maps = maps_smoothness(renderer.material(surface.material));
+    if (renderer.tier_of("environment") != Tier::reference && is_lit(renderer.scene(), surface) && !maps)
+        defines.emplace_back("CONSTANT_SMOOTHNESS");
+}
+
 std::span<const gl::Insertion> insertions(const PlanContext& context) {
     if (context.tier == Tier::low) return kLowInsertions;
     return kInsertions;
@@ -63,14 +73,9 @@ public:
           root_range_(root_range_of(map_, exposure_)) {
         if (map_.levels.empty()) return;  // switched on by hand in a scene without one
         say_what_is_cut(renderer);
-        const int largest = renderer.caps().max_cube_map_size;
-        if (tier_ == Tier::low) {
-            sharp_ = upload(renderer, level_for(map_, static_cast<float>(ENVIRONMENT_SHARP), largest), 1);
-            rough_ = upload(renderer, level_for(map_, static_cast<float>(ENVIRONMENT_ROUGH), largest), 1);
-            return;
-        }
-        first_level_ = level_for(map_, 1.0f, largest);
-        sharp_ = upload(renderer, first_level_, static_cast<int>(map_.levels.size()) - first_level_);
+        const float sharpest = tier_ == Tier::low ? static_cast<float>(ENVIRONMENT_SHARP) : 1.0f;
+        first_level_ = level_for(map_, sharpest, renderer.caps().max_cube_map_size);
+        upload_steps(renderer);
     }
 
     int adopt(Renderer& renderer, gl::Program& program) override {
@@ -78,10 +83,13 @@ public:
         adopted.scale = program.uniform_if_used("reflection_scale");
         adopted.terms = program.uniform_if_used("irradiance_terms");
         for (const auto& [sampler, unit] :
-             {std::pair{"reflection_map", kReflectionUnit}, std::pair{"rough_reflection_map", kRoughReflectionUnit}}) {
+             {std::pair{"reflection_map", kReflectionUnit}, std::pair{"one_level_map", kReflectionUnit},
+              std::pair{"rough_reflection_map", kRoughReflectionUnit}}) {
             if (const int location = program.uniform_if_used(sampler); location >= 0)
                 renderer.gl().Uniform1i(location, unit);
         }
+        adopted.reads_levels = program.uniform_if_used("reflection_map") >= 0;
+        if (adopted.reads_levels) upload_levels(renderer);
         if (adopted.scale < 0 && adopted.terms < 0) return -1;  // not lit
         adopted_.push_back(adopted);
         return static_cast<int>(adopted_.size()) - 1;
@@ -107,15 +115,77 @@ public:
             for (std::size_t i = 0; i < terms.size(); ++i) terms[i] = glm::vec4(map_.irradiance[i] * exposure, 0.0f);
             gl.Uniform4fv(adopted.terms, static_cast<GLsizei>(terms.size()), &terms[0].x);
         }
+        if (!adopted.reads_levels) return;
         if (sharp_) renderer.bind_cube(kReflectionUnit, sharp_.name());
         if (rough_) renderer.bind_cube(kRoughReflectionUnit, rough_.name());
+    }
+
+    void feed_material(Renderer& renderer, int index, int material) override {
+        if (adopted_[static_cast<std::size_t>(index)].reads_levels || steps_.empty()) return;
+        Chosen& chosen = chosen_[static_cast<std::size_t>(material)];
+        const float roughness = unmapped_roughness(renderer.material(material));
+        if (chosen.roughness != roughness) chosen = {roughness, nearest_cube(step_of(roughness))};
+        renderer.bind_cube(kReflectionUnit, chosen.cube);
     }
 
 private:
     struct Adopted {
         int scale = -1;
         int terms = -1;
+        bool reads_levels = false;
     };
+    /// Level step / ENVIRONMENT_STEPS as a cube of its own.
+    struct StepCube {
+        int step;
+        gl::Texture cube;
+    };
+
+    /// The cube of a material, for the roughness that it was chosen for; -1: none yet.
+    struct Chosen {
+        float roughness = -1.0f;
+        std::uint32_t cube = 0;
+    };
+
+    [[nodiscard]] int step_of(float roughness) const {
+        return std::max(level_step(map_, smoothness_of(roughness)), first_level_ * ENVIRONMENT_STEPS);
+    }
+
+    [[nodiscard]] std::uint32_t nearest_cube(int step) const {
+        const auto distance = [step](const StepCube& one) { return std::abs(one.step - step); };
+        return std::ranges::min_element(steps_, {}, distance)->cube.name();
+    }
+
+    /// A cube for each smoothness that equally smooth surfaces have.
+    void upload_steps(Renderer& renderer) {
+        chosen_.resize(renderer.scene().materials.size());
+        const std::vector<Surface>& surfaces = renderer.scene().surfaces;
+        std::vector<std::string_view> defines;
+        for (std::size_t i = 0; i < surfaces.size(); ++i) {
+            const int step = step_of(unmapped_roughness(renderer.material(surfaces[i].material)));
+            if (std::ranges::find(steps_, step, &StepCube::step) != steps_.end()) continue;
+            defines.clear();
+            renderer.add_defines(static_cast<int>(i), defines);
+            const auto has = [&](std::string_view word) { return std::ranges::find(defines, word) != defines.end(); };
+            if (!has("CONSTANT_SMOOTHNESS") || has("WATER")) continue;
+            const int level = step / ENVIRONMENT_STEPS;
+            const std::vector<glm::vec3> texels = texels_of_step(map_, step);
+            gl::Texture cube = begin_cube(renderer, GL_LINEAR);
+            renderer.count_texture_bytes(upload_texels(renderer, texels, map_.size >> level, 0));
+            steps_.push_back({step, std::move(cube)});
+        }
+    }
+
+    /// What programs read that choose by pixel: the chain, or at low two levels of it.
+    void upload_levels(Renderer& renderer) {
+        if (sharp_ || map_.levels.empty()) return;
+        if (tier_ != Tier::low) {
+            sharp_ = upload(renderer, first_level_, static_cast<int>(map_.levels.size()) - first_level_);
+            return;
+        }
+        sharp_ = upload(renderer, first_level_, 1);
+        rough_ = upload(renderer,
+                        level_for(map_, static_cast<float>(ENVIRONMENT_ROUGH), renderer.caps().max_cube_map_size), 1);
+    }
 
     void say_what_is_cut(Renderer& renderer) const {
         if (tier_ == Tier::reference) return;
@@ -132,26 +202,34 @@ private:
 
     /// `count` levels from `first` on as a cube.
     gl::Texture upload(Renderer& renderer, int first, int count) const {
+        gl::Texture cube = begin_cube(renderer, count > 1 ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR);
+        std::size_t bytes = 0;
+        for (int i = 0; i < count; ++i) {
+            const int level = first + i;
+            bytes += upload_texels(renderer, map_.levels[static_cast<std::size_t>(level)],
+                                   std::max(map_.size >> level, 1), i);
+        }
+        renderer.count_texture_bytes(bytes);
+        return cube;
+    }
+
+    /// An empty cube, bound.
+    gl::Texture begin_cube(Renderer& renderer, GLint minify) const {
         gl::EntryPoints& gl = renderer.gl();
         gl::Texture cube = gl::create<gl::Kind::texture>(gl);
         gl.ActiveTexture(GL_TEXTURE0);
         gl.BindTexture(GL_TEXTURE_CUBE_MAP, cube.name());
-        std::size_t bytes = 0;
-        for (int i = 0; i < count; ++i) bytes += upload_level(renderer, first + i, i);
-        const GLint minify = count > 1 ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR;
         for (const auto& [parameter, value] :
              {std::pair{GL_TEXTURE_MIN_FILTER, minify}, std::pair{GL_TEXTURE_MAG_FILTER, GL_LINEAR},
               std::pair{GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE}, std::pair{GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE}}) {
             gl.TexParameteri(GL_TEXTURE_CUBE_MAP, static_cast<GLenum>(parameter), value);
         }
         gl::label(gl, cube, map_.name.c_str());
-        renderer.count_texture_bytes(bytes);
         return cube;
     }
 
-    std::size_t upload_level(Renderer& renderer, int level, int as_level) const {
-        const auto& texels = map_.levels[static_cast<std::size_t>(level)];
-        const int side = std::max(map_.size >> level, 1);
+    /// Six faces of the bound cube; returns their bytes.
+    std::size_t upload_texels(Renderer& renderer, const std::vector<glm::vec3>& texels, int side, int as_level) const {
         const std::size_t face_texels = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
         const bool in_floats = tier_ == Tier::reference;
         const auto format = gl::transfer_format(in_floats ? gl::PixelFormat::rgba16f : gl::PixelFormat::rgba8,
@@ -186,6 +264,8 @@ private:
     float exposure_;  ///< that what is stored is made for
     float root_range_;
     int first_level_ = 0;
+    std::vector<StepCube> steps_;
+    std::vector<Chosen> chosen_;  ///< by material
     gl::Texture sharp_;
     gl::Texture rough_;
     std::vector<Adopted> adopted_;
@@ -219,6 +299,40 @@ int level_for(const EnvironmentMap& map, float smoothness, int largest_size) {
     return level;
 }
 
+int level_step(const EnvironmentMap& map, float smoothness) {
+    const float level = (1.0f - smoothness) * static_cast<float>(map.roughest_level);
+    const float part = level - std::floor(level);
+    return static_cast<int>(std::lround((level + 0.4f * part * (1.0f - part)) * ENVIRONMENT_STEPS));
+}
+
+std::vector<glm::vec3> texels_of_step(const EnvironmentMap& map, int step) {
+    const int level = step / ENVIRONMENT_STEPS;
+    const float part = static_cast<float>(step % ENVIRONMENT_STEPS) / ENVIRONMENT_STEPS;
+    std::vector<glm::vec3> texels = map.levels[static_cast<std::size_t>(level)];
+    if (part == 0.0f) return texels;
+    const std::vector<glm::vec3>& coarse = map.levels[static_cast<std::size_t>(level) + 1];
+    const int side = map.size >> level;
+    const int half = side / 2;
+    std::size_t at = 0;
+    for (int face = 0; face < 6; ++face) {
+        const glm::vec3* from = coarse.data() + static_cast<std::size_t>(face * half * half);
+        for (int y = 0; y < side; ++y) {
+            // Row y lies between rows (y - 1) / 2 and that + 1, a quarter or three quarters of the way, clamped as a
+            // sampler does.
+            const int above = std::max((y - 1) >> 1, 0), below = std::min((y + 1) >> 1, half - 1);
+            const float down = (y & 1) != 0 ? 0.25f : 0.75f;
+            for (int x = 0; x < side; ++x, ++at) {
+                const int left = std::max((x - 1) >> 1, 0), right = std::min((x + 1) >> 1, half - 1);
+                const float across = (x & 1) != 0 ? 0.25f : 0.75f;
+                const glm::vec3 upper = glm::mix(from[above * half + left], from[above * half + right], across);
+                const glm::vec3 lower = glm::mix(from[below * half + left], from[below * half + right], across);
+                texels[at] = glm::mix(texels[at], glm::mix(upper, lower, down), part);
+            }
+        }
+    }
+    return texels;
+}
+
 const EffectCard kEnvironment{
     .name = "environment",
     .purpose = "Lights surfaces from a prefiltered map of their surroundings: diffuse light and reflections.",
@@ -228,20 +342,22 @@ const EffectCard kEnvironment{
     .kind = EffectKind::material,
     .called_for_by = "Scene::environment",
     .budget_row = "environment",
-    .tiers = {TierCard{{},
-                       "none of its own",
-                       "diffuse light by vertex; reflections mixed from two small RGBM8 cubes, so mirrors are soft"},
+    .tiers = {TierCard{
+                  {},
+                  "none of its own",
+                  "diffuse light by vertex; reflections from one small RGBM8 cube, mixed from two where smoothness "
+                  "varies, so mirrors are soft"},
               TierCard{{},
                        "none of its own",
                        "diffuse light by vertex, by pixel under a normal map; one fetch from the level of an RGBM8 "
-                       "cube that fits "
-                       "the power"},
+                       "cube that fits the power, from a cube of one level where smoothness does not vary"},
               TierCard{{},
                        "none of its own",
                        "as console, diffuse light always by pixel, from an RGBA16F cube and in highp"}},
     .called_for = called_for,
     .add_passes = nullptr,
     .insertions = insertions,
+    .add_defines = add_defines,
     .prepare = prepare,
 };
 

@@ -22,4 +22,12 @@ extern const EffectCard kEnvironment;
 /// side.
 [[nodiscard]] int level_for(const EnvironmentMap& map, float smoothness, int largest_size);
 
+/// The step of ENVIRONMENT_STEPS a level that a surface of one smoothness 0..1 reads, 0 for the sharpest: its level as
+/// the shader's reflection_level() gives it, rounded.
+[[nodiscard]] int level_step(const EnvironmentMap& map, float smoothness);
+
+/// The cube of a step: between two levels both are blended in linear light, the coarse one filtered as a sampler does.
+/// As large as the finer one.
+[[nodiscard]] std::vector<glm::vec3> texels_of_step(const EnvironmentMap& map, int step);
+
 }  // namespace halfframe

@@ -21,6 +21,10 @@ double reflection_level(double smoothness, double roughest) {
     return whole + 1.4 * part - 0.4 * part * part;
 }
 
+double constant_reflection_level(double smoothness, double roughest) {
+    return std::floor(8.0 * reflection_level(smoothness, roughest) + 0.5) / 8.0;
+}
+
 double rgbm_light(double channel, double alpha, double root_range) {
     return std::pow(channel * alpha * root_range, 2.0);
 }

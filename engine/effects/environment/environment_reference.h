@@ -16,6 +16,9 @@ namespace halfframe::reference {
 /// error in display codes for lamps of 2 to 20 degrees, and next to the least up to 80 (least largest error: 0).
 [[nodiscard]] double reflection_level(double smoothness, double roughest);
 
+/// The level whose cube a surface of one smoothness everywhere has: that level to the nearest eighth.
+[[nodiscard]] double constant_reflection_level(double smoothness, double roughest);
+
 /// Light that an RGBM8 texel of 0..1 stands for: the square of channel * alpha * root_range.
 [[nodiscard]] double rgbm_light(double channel, double alpha, double root_range);
 

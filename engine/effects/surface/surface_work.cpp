@@ -48,12 +48,8 @@ glm::vec4 factors_of(const Material& material, bool maps_roughness) {
     const float metallic = glossy ? 0.0f : material.metallic;
     if (maps_roughness)
         return {metallic, glossy ? material.smoothness : material.roughness, material.normal_scale, 0.0f};
-    const float roughness = glossy ? 1.0f - material.smoothness : material.roughness;
-    const float alpha_squared = std::pow(roughness, 4.0f);
-    const auto least = static_cast<float>(2.0 / (SURFACE_POWER_MAX + 2.0));
-    const float power = std::max(2.0f / std::max(alpha_squared, least) - 2.0f, static_cast<float>(SURFACE_POWER_MIN));
-    const float smoothness = std::clamp((std::log2(power) - 1.0f) * 0.1f, 0.0f, 1.0f);
-    return {metallic, smoothness, material.normal_scale, power};
+    const float power = power_of(unmapped_roughness(material));
+    return {metallic, smoothness_of_power(power), material.normal_scale, power};
 }
 
 /// Units that no insertion of another effect reads: the glow is added by other programs, the shadow map exists above

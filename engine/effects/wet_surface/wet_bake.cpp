@@ -242,13 +242,6 @@ bool sampled_alike(const Texture& a, const UvMapping& a_uv, const Texture& b, co
 
 }  // namespace
 
-float smoothness_of(float roughness) {
-    const float alpha_squared = std::pow(roughness, 4.0f);
-    const auto least = static_cast<float>(2.0 / (SURFACE_POWER_MAX + 2.0));
-    const float power = std::max(2.0f / std::max(alpha_squared, least) - 2.0f, static_cast<float>(SURFACE_POWER_MIN));
-    return std::clamp((std::log2(power) - 1.0f) * 0.1f, 0.0f, 1.0f);
-}
-
 float roughness_of(float smoothness) {
     return std::pow(2.0f / (std::exp2(10.0f * smoothness + 1.0f) + 2.0f), 0.25f);
 }

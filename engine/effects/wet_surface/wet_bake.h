@@ -10,8 +10,7 @@ namespace halfframe {
 /// Why the textures of a material cannot hold its water, to follow "because"; empty: they can.
 [[nodiscard]] std::string obstacle_to_writing(const Scene& scene, const Material& material);
 
-/// Smoothness 0..1 of a roughness 0..1 and back, as surface.glsl makes it (by way of the lobe's power).
-[[nodiscard]] float smoothness_of(float roughness);
+/// Roughness 0..1 of a smoothness 0..1: the way back from smoothness_of().
 [[nodiscard]] float roughness_of(float smoothness);
 
 /// The mean porosity of a material over its textures, 0..1.

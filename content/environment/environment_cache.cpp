@@ -3,19 +3,16 @@
 #include "content/environment/environment_cache.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <fstream>
-#include <functional>
 #include <iterator>
 #include <system_error>
-#include <thread>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "content/environment/lobe_powers.h"
+#include "engine/cache_file.h"
 #include "engine/gl/fingerprint.h"
 
 namespace halfframe::content {
@@ -111,22 +108,8 @@ std::optional<std::string> write_cache(const std::filesystem::path& file, const 
     put(content, &sum, 1);
     content += payload;
 
-    std::error_code error;
-    std::filesystem::create_directories(file.parent_path(), error);
-    std::filesystem::path beside = file;
-    // Other processes, and other threads of this one, may be at the same file.
-    beside += fmt::format(".{}.{:x}.part", ::getpid(), std::hash<std::thread::id>{}(std::this_thread::get_id()));
-    if (!error) {
-        errno = 0;
-        std::ofstream stream(beside, std::ios::binary | std::ios::trunc);
-        stream << content;
-        stream.close();
-        if (!stream) error = {errno != 0 ? errno : EIO, std::generic_category()};
-    }
-    if (!error) std::filesystem::rename(beside, file, error);
+    const std::error_code error = write_cache_file(file, content);
     if (!error) return {};
-    std::error_code ignored;
-    std::filesystem::remove(beside, ignored);
     return fmt::format(
         "the environment cache folder {} cannot be written ({}): environments are filtered anew in every "
         "run; give another folder or make this one writable",

@@ -1,6 +1,5 @@
 // Compiles, links and reflects programs, and keeps them in memory and on disk.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -11,6 +10,7 @@
 #include <optional>
 #include <system_error>
 
+#include "engine/cache_file.h"
 #include "engine/error.h"
 #include "engine/gl/entry_points.h"
 #include "engine/gl/fingerprint.h"
@@ -304,22 +304,8 @@ void ProgramCache::save_binary(const Program& program, const std::string& key) {
     if (had_error(gl_) || written <= 0) return;
     stored.binary.resize(static_cast<std::size_t>(written));
 
-    std::error_code error;
-    std::filesystem::create_directories(folder_, error);
-    const std::filesystem::path path = binary_path(key);
-    // Beside and then renamed: another process never reads half a file.
-    std::filesystem::path beside = path;
-    beside += fmt::format(".{}.part", ::getpid());
-    {
-        std::ofstream file(beside, std::ios::binary | std::ios::trunc);
-        file << file_content(stored, key, driver_);
-        file.close();
-        if (!file && !error) error = std::make_error_code(std::errc::io_error);
-    }
-    if (!error) std::filesystem::rename(beside, path, error);
+    const std::error_code error = write_cache_file(binary_path(key), file_content(stored, key, driver_));
     if (!error) return;
-    std::error_code ignored;
-    std::filesystem::remove(beside, ignored);
     notice(
         fmt::format("the program cache folder {} cannot be written ({}): programs are compiled anew in every run; give "
                     "another folder or make this one writable",

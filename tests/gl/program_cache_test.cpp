@@ -1,10 +1,14 @@
 // Programs: errors that name our file and line, uniforms, and the cache in memory and on disk.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <system_error>
 
 #include "engine/error.h"
 #include "engine/gl/call_number.h"
@@ -237,6 +241,23 @@ TEST_F(ProgramDiskTest, AFolderThatCannotBeWrittenCostsOneNotice) {
         ASSERT_EQ(cache.notices().size(), 1u);
         EXPECT_NE(cache.notices()[0].find(path.string()), std::string::npos) << cache.notices()[0];
     }
+}
+
+TEST_F(ProgramDiskTest, AFullDiskIsANoticeThatSaysSoAndLeavesNothing) {
+    const ScratchFolder folder;
+    ProgramCache cache(gl(), caps(), folder.path(), sample_files());
+    rlimit before{};
+    ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+    const auto handler = std::signal(SIGXFSZ, SIG_IGN);  // the write fails instead
+    const rlimit small{.rlim_cur = 64, .rlim_max = before.rlim_max};
+    ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+    EXPECT_GE(cache.get(sample_program(Dialect::es300)).uniform("tint"), 0);
+    ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
+    std::signal(SIGXFSZ, handler);
+    ASSERT_EQ(cache.notices().size(), 1u);
+    EXPECT_NE(cache.notices()[0].find(std::generic_category().message(EFBIG)), std::string::npos) << cache.notices()[0];
+    EXPECT_TRUE(folder.files().empty());
+    EXPECT_EQ(run(folder.path()).compiled, 1);
 }
 
 TEST_F(ProgramDiskTest, AMaskWithoutBinariesTouchesNoDisk) {

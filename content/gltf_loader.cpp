@@ -291,7 +291,7 @@ private:
         int result = -1;
         if (read) {
             scene_.meshes.push_back(mirror ? mirrored(*read) : std::move(*read));
-            boxes_.push_back(local_box(scene_.meshes.back()));
+            boxes_.push_back(box_of(scene_.meshes.back().positions));
             result = static_cast<int>(scene_.meshes.size()) - 1;
         }
         meshes_by_streams_[streams] = result;
@@ -319,17 +319,24 @@ private:
 
     void expect_in_range(std::size_t surface) const {
         const Surface& drawn = scene_.surfaces[surface];
-        const Box box = world_box(changes_shape(scene_, drawn) ? posed_box(scene_, static_cast<int>(surface))
-                                                               : boxes_[static_cast<std::size_t>(drawn.mesh)],
-                                  drawn.world_from_local);
-        if (box.empty()) return;
-        for (int axis = 0; axis < 3; ++axis) {
-            if (!(std::abs(box.low[axis]) <= kLargestCoordinate_m) ||
-                !(std::abs(box.high[axis]) <= kLargestCoordinate_m)) {
-                fail(fmt::format("/nodes/{}", nodes_of_surfaces_[surface]),
-                     fmt::format("its mesh reaches beyond {} m", kLargestCoordinate_m));
+        const Mesh& mesh = scene_.meshes[static_cast<std::size_t>(drawn.mesh)];
+        const auto is_near = [&](const Box& local) {
+            const Box box = world_box(local, drawn.world_from_local);
+            if (box.empty()) return true;
+            for (int axis = 0; axis < 3; ++axis) {
+                if (!(std::abs(box.low[axis]) <= kLargestCoordinate_m) ||
+                    !(std::abs(box.high[axis]) <= kLargestCoordinate_m))
+                    return false;
             }
-        }
+            return true;
+        };
+        // Whose vertices are all near needs no look at which of them are drawn.
+        const bool right = changes_shape(scene_, drawn)
+                               ? is_near(posed_box(scene_, static_cast<int>(surface)))
+                               : is_near(boxes_[static_cast<std::size_t>(drawn.mesh)]) || is_near(local_box(mesh));
+        if (!right)
+            fail(fmt::format("/nodes/{}", nodes_of_surfaces_[surface]),
+                 fmt::format("its mesh reaches beyond {} m", kLargestCoordinate_m));
     }
 
     void add_light(const Visit& visit) {
@@ -377,7 +384,7 @@ private:
     std::map<int, int> skins_;
     std::map<std::tuple<std::size_t, std::size_t, bool>, int> meshes_;
     std::map<std::string, int> meshes_by_streams_;
-    std::vector<Box> boxes_;                      ///< of Scene::meshes, as they are
+    std::vector<Box> boxes_;                      ///< of all vertices of Scene::meshes, as they are
     std::vector<std::size_t> nodes_of_surfaces_;  ///< of the document
     ReadSoFar so_far_;
 };

@@ -79,28 +79,6 @@ void set_depth_range(Camera& camera, const glm::vec3& eye, const glm::vec3& forw
     camera.near_m = std::clamp(nearest * 0.9f, camera.far_m * kSmallestNearOverFar, camera.far_m * 0.5f);
 }
 
-/// Four points at a time, twelve numbers side by side: three instructions for what a point alone takes as many.
-Box box_of(std::span<const glm::vec3> points) {
-    std::array<float, 12> low{}, high{};
-    low.fill(Box{}.low.x);
-    high.fill(Box{}.high.x);
-    std::size_t i = 0;
-    for (; i + 4 <= points.size(); i += 4) {
-        const float* numbers = &points[i].x;
-        for (std::size_t k = 0; k < low.size(); ++k) {
-            low[k] = std::min(low[k], numbers[k]);
-            high[k] = std::max(high[k], numbers[k]);
-        }
-    }
-    Box box;
-    for (std::size_t k = 0; k < low.size(); k += 3) {
-        box.low = glm::min(box.low, glm::vec3(low[k], low[k + 1], low[k + 2]));
-        box.high = glm::max(box.high, glm::vec3(high[k], high[k + 1], high[k + 2]));
-    }
-    for (; i < points.size(); ++i) box.add(points[i]);
-    return box;
-}
-
 }  // namespace
 
 float power_of(float roughness) {
@@ -120,6 +98,28 @@ float unmapped_roughness(const Material& material) {
 bool maps_smoothness(const Material& material) {
     return material.model == MaterialModel::specular_glossiness ? bool(material.specular_smoothness_texture)
                                                                 : bool(material.metallic_roughness_texture);
+}
+
+Box box_of(std::span<const glm::vec3> points) {
+    // Four points at a time, twelve numbers side by side: three instructions for what a point alone takes as many.
+    std::array<float, 12> low{}, high{};
+    low.fill(Box{}.low.x);
+    high.fill(Box{}.high.x);
+    std::size_t i = 0;
+    for (; i + 4 <= points.size(); i += 4) {
+        const float* numbers = &points[i].x;
+        for (std::size_t k = 0; k < low.size(); ++k) {
+            low[k] = std::min(low[k], numbers[k]);
+            high[k] = std::max(high[k], numbers[k]);
+        }
+    }
+    Box box;
+    for (std::size_t k = 0; k < low.size(); k += 3) {
+        box.low = glm::min(box.low, glm::vec3(low[k], low[k + 1], low[k + 2]));
+        box.high = glm::max(box.high, glm::vec3(high[k], high[k + 1], high[k + 2]));
+    }
+    for (; i < points.size(); ++i) box.add(points[i]);
+    return box;
 }
 
 Box local_box(const Mesh& mesh) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -255,6 +256,9 @@ struct Box {
     }
 };
 
+/// Of all points.
+[[nodiscard]] Box box_of(std::span<const glm::vec3> points);
+/// Of the vertices that are drawn.
 [[nodiscard]] Box local_box(const Mesh& mesh);
 [[nodiscard]] Box world_box(const Box& local, const glm::mat4& world_from_local);
 /// Box of every surface together [m].

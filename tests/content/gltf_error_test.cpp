@@ -337,6 +337,17 @@ TEST(GltfError, Images) {
               std::string::npos);
 }
 
+TEST(GltfError, FarIsWhatIsDrawnAndNotAVertexThatNothingUses) {
+    const TemporaryFolder folder;
+    json unused = triangle_document();
+    set_positions(unused, {0, 0, 0, 1, 0, 0, 0, 1, 0, 1e20f, 0, 0});
+    EXPECT_EQ(error_of(folder.write("unused.gltf", unused.dump())), "");
+    json used = triangle_document();
+    set_positions(used, {0, 0, 0, 1, 0, 0, 0, 1e20f, 0, 1, 1, 0});
+    EXPECT_NE(error_of(folder.write("used.gltf", used.dump())).find("/nodes/0: its mesh reaches beyond"),
+              std::string::npos);
+}
+
 TEST(GltfError, BinaryContainer) {
     const TemporaryFolder folder;
     json document = triangle_document();

@@ -82,7 +82,8 @@ private:
 }  // namespace
 
 int main(int argc, char** argv) {
-    if (argc < 2 || argc % 2 == 1) return 2;
+    // It has no options: one would be the name of the file.
+    if (argc < 2 || argc % 2 == 1 || *argv[1] == '-') return 2;
     const UnfinishedFile unfinished(argv[1]);
     try {
         const platform::Context context = platform::Context::create({.backend = platform::Backend::egl});

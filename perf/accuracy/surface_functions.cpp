@@ -139,7 +139,30 @@ std::vector<FunctionEntry> lobes() {
     written.in_float = {5e-4, "fp32 rounds n.h near 1 to 6e-8, which the power of 2048 multiplies; pow() adds its own"};
     written.half = {5e-4, "full arithmetic: nothing is mediump, as float"};
     written.flushed = written.half;
-    return {chord, written};
+
+    FunctionEntry mirrored = entry("mirrored_root", "r.l -1..1 in the plane of the normal, power 2..2048");
+    mirrored.arguments = [] {
+        const Columns u = unit_cube(5);
+        std::vector<Argument> arguments{{"mirrored", {}}, {"l", {}}, {"power", {mapped(u[4], power_of)}}};
+        for (std::size_t i = 0; i < u[0].size(); ++i) {
+            const Vector ray = direction(u[0][i], u[1][i]);
+            add(arguments[0].values, ray);
+            add(arguments[1].values, tilted(ray, 2.0 * tilt_of(u[2][i]), u[3][i]));
+        }
+        return arguments;
+    };
+    mirrored.reference = [](const Lane& in, std::size_t) {
+        const Vector r = vector_of(in, 0), l = vector_of(in, 1);
+        const Vector sum{r[0] + l[0], r[1] + l[1], r[2] + l[2]};
+        const double length = std::hypot(sum[0], sum[1], sum[2]);
+        if (length < 1e-12) return 0.0;
+        return reference::blinn_lobe(r, {sum[0] / length, sum[1] / length, sum[2] / length}, 0.5 * in(2));
+    };
+    mirrored.method = {0.4, "the logarithm's series ends at its third term: where the sun is behind what is mirrored"};
+    mirrored.in_float = {1e-5, "as blinn_lobe"};
+    mirrored.half = {1.5e-3, "as blinn_lobe"};
+    mirrored.flushed = {6e-3, "as half"};
+    return {chord, written, mirrored};
 }
 
 std::vector<FunctionEntry> falloffs() {

@@ -4,6 +4,8 @@
 //   surface.material  albedo, specular, smoothness, power, n, v may be changed (all set, nothing lit yet)
 //   surface.ambient   diffuse_light and mirrored_light, what falls in from everywhere, may be changed
 //   surface.sun       sun_light may be dimmed
+//   surface.mirrored  mirrored_light, that of the ray `mirrored`, may be changed (only in programs with LIT_BY_VERTEX, which have none
+//                     of the points above)
 //   surface.lighting  light holds all reflected light
 //   surface.color     color holds what will be stored
 //
@@ -19,9 +21,18 @@
 #include "surface/surface_material.glsl"
 #include "tone_map/tone_map.glsl"
 
+#ifndef LIT_BY_VERTEX
 FRAGMENT_IN FULL vec3 vertex_to_eye;  // FULL: metres, see surface.vert
 #ifndef UNLIT
 FRAGMENT_IN HALF vec3 vertex_normal;
+#endif
+#else
+FRAGMENT_IN FULL vec3 vertex_mirrored;  // FULL: metres
+FRAGMENT_IN HALF vec3 vertex_light;     // all that is diffuse, and the emission
+FRAGMENT_IN HALF vec3 vertex_mirror;  // Fresnel: what multiplies the light of the mirrored ray
+#ifdef SUN
+FRAGMENT_IN HALF vec4 vertex_highlight;  // rgb in its middle, w power
+#endif
 #endif
 #ifdef NORMAL_MAP
 FRAGMENT_IN HALF vec4 vertex_tangent;
@@ -33,7 +44,7 @@ FRAGMENT_IN HALF vec4 vertex_color;
 // The CPU multiplies every light, the ambient and the emission by the exposure: no uniform and no operation for it here.
 FRAGMENT_UNIFORM HALF vec4 base_color;
 FRAGMENT_UNIFORM HALF vec4 emissive;  // rgb; w alpha cutoff
-#ifndef UNLIT
+#if !defined(UNLIT) && !defined(LIT_BY_VERTEX)
 // x metallic, y roughness, z normal scale; without a map y is the smoothness and w the power, made on the CPU.
 FRAGMENT_UNIFORM HALF vec4 factors;
 FRAGMENT_UNIFORM HALF vec4 ambient;  // rgb
@@ -45,8 +56,7 @@ FRAGMENT_UNIFORM HALF vec4 parallel_eye;  // orthographic: xyz direction to the 
 #define ONE_FETCH  // normal_map: rg normal x and y, b metallic, a roughness; texture_storage.h packs it
 #endif
 #ifdef SUN
-FRAGMENT_UNIFORM HALF vec4 sun_direction;  // xyz unit, towards the sun
-FRAGMENT_UNIFORM HALF vec4 sun_color;      // rgb
+FRAGMENT_UNIFORM HALF vec4 sun_color;  // rgb
 #endif
 #ifdef LOCAL_LIGHTS
 #ifdef TIER_LOW
@@ -69,6 +79,10 @@ uniform FULL vec4 light_size[LIGHT_SLOTS];  // FULL: metres squared; x radius [m
 #endif
 #endif
 #endif
+#endif
+
+#if defined(SUN) && !defined(UNLIT)
+FRAGMENT_UNIFORM HALF vec4 sun_direction;  // xyz unit, towards the sun
 #endif
 
 #include "surface/surface_water.glsl"
@@ -105,6 +119,17 @@ void main() {
     vec3 light = inverse_tone_map(shown);
 #elif defined(UNLIT)
     vec3 light = base.rgb + emission;
+#elif defined(LIT_BY_VERTEX)
+    // FULL: the highlight is its distance to the sun.
+    FULL vec3 mirrored = vertex_mirrored * inversesqrt(max(dot(vertex_mirrored, vertex_mirrored), 6.2e-5));
+    float smoothness = 0.0;  // one for the whole surface: its cube is chosen already
+    vec3 mirrored_light = vec3(0.0);
+    //@insert surface.mirrored
+    vec3 light = vertex_light + vertex_mirror * mirrored_light;
+#ifdef SUN
+    float root = mirrored_root(mirrored, sun_direction.xyz, vertex_highlight.w);
+    light += vertex_highlight.rgb * root * root;
+#endif
 #else
     float metallic = factors.x;
 #ifdef ONE_FETCH

@@ -76,6 +76,19 @@ float blinn_lobe(FULL vec3 n, FULL vec3 h, float power) {
 }
 #endif
 
+// blinn_root without a half vector: (n.h)^2 = (1 + r.l) / 2 where the mirrored ray r, n and l lie in one plane. Out of it the lobe
+// is round, where Blinn's gets longer at grazing angles. With x = |r - l|^2 / 4 = 1 - (n.h)^2 the root is (1 - x)^(power / 4); the
+// series stops at x^2. FULL: see blinn_root.
+//@domain mirrored, l: unit; power: 2..2048
+//@promise in 0..1; falling power; where mirrored == l: result == 1.0; within(mirrored_root(l, mirrored, power), result, slack)
+float mirrored_root(FULL vec3 mirrored, FULL vec3 l, float power) {
+    FULL vec3 chord = 16.0 * (mirrored - l);
+    FULL float square = dot(chord, chord);  // 1024 x
+    FULL float x = square * (1.0 / 1024.0);
+    float exponent = square * power * (0.00035222 + x * (0.00017611 + x * 0.00011741));  // log2(e) / 4 / 1024
+    return exp2(-exponent);
+}
+
 // Smooth fall to 0 at the light's range; 1 at 1 m. distance_squared [m^2], inverse_range_squared [1/m^2].
 // Window: B. Karis, "Real Shading in Unreal Engine 4", SIGGRAPH 2013. FULL: a distance of 256 m squared overflows half.
 // Nearer than 1/316 of the range it grows no more, and never past 60000, so that a lamp inside a surface stays finite in any

@@ -1,6 +1,7 @@
 // Places a vertex, and hands on what the fragment stage interpolates. All positions are relative to the eye (the CPU
 // subtracts in double), so a scene 10 km from the origin shades as it does at the origin. Insertion point:
-//   surface.vertex  at [m] from the eye, n (the side that is seen where vertices are lit); lit surfaces only
+//   surface.vertex        at [m] from the eye, n (the side that is seen where vertices are lit); lit surfaces only
+//   surface.vertex_light  diffuse_light and mirrored_light, what falls in from everywhere, may be changed; with LIT_BY_VERTEX only
 #include "surface/surface_limits.h"
 #include "surface/surface_lights.glsl"
 #include "common/maths.glsl"
@@ -21,12 +22,17 @@ uniform highp vec4 direction_scale;    // xyz: undoes the scale of stored positi
 #endif
 uniform highp vec4 toward_eye;         // xyz: direction to the eye if orthographic; w: scale of lengths, see surface_work.cpp
 
+#ifdef LIT_BY_VERTEX
+highp vec3 vertex_to_eye;
+highp vec3 vertex_normal;
+#else
 VERTEX_OUT FULL vec3 vertex_to_eye;  // FULL: positions in metres need more than 11 bits
+#endif
 VERTEX_OUT FULL vec2 vertex_uv;      // FULL: a 2048-texel repeat is past half's 11 bits
 #ifdef UV_B
 VERTEX_OUT FULL vec2 vertex_uv_b;
 #endif
-#ifndef UNLIT
+#if !defined(UNLIT) && !defined(LIT_BY_VERTEX)
 VERTEX_OUT HALF vec3 vertex_normal;
 #endif
 #ifdef NORMAL_MAP
@@ -36,14 +42,22 @@ VERTEX_OUT HALF vec4 vertex_tangent;
 VERTEX_OUT HALF vec4 vertex_color;
 #endif
 
+#if (defined(LOCAL_LIGHTS) && defined(TIER_LOW)) || defined(LIT_BY_VERTEX)
+#include "surface/surface.glsl"
+#endif
+#ifdef LIT_BY_VERTEX
+#include "surface/surface_by_vertex.glsl"
+#endif
+
 #if defined(LOCAL_LIGHTS) && defined(TIER_LOW)
 // Low tier: local lights are diffuse and per vertex, so that the fragment stage stays inside 16 uniform vectors.
-#include "surface/surface.glsl"
 uniform highp vec4 light_position[LIGHT_SLOTS];   // xyz [m] from the eye, w = 1 / range^2
 uniform highp vec4 light_color[LIGHT_SLOTS];      // rgb, w = spot cos_scale (0: point)
 uniform highp vec4 light_direction[LIGHT_SLOTS];  // xyz unit, w = cos outer
 uniform highp vec4 light_count;                           // x
+#ifndef LIT_BY_VERTEX
 VERTEX_OUT HALF vec3 vertex_light;
+#endif
 
 //@stage vertex
 //@variant TIER_LOW LOCAL_LIGHTS ONE_LIGHT SPOT_LIGHTS
@@ -109,9 +123,25 @@ void main() {
     n = dot(n, to_eye) < 0.0 ? -n : n;  // a vertex has no front: it is lit on the side that is seen
 #endif
 #if defined(LOCAL_LIGHTS) && defined(TIER_LOW)
-    vertex_light = min(local_light(at, n), vec3(60000.0));  // past half's range a metal's albedo of 0 would make it NaN
+    vec3 local = min(local_light(at, n), vec3(60000.0));  // past half's range a metal's albedo of 0 would make it NaN
+#ifndef LIT_BY_VERTEX
+    vertex_light = local;
+#endif
 #endif
     //@insert surface.vertex
+#ifdef LIT_BY_VERTEX
+    vec3 diffuse_light = lit_ambient.rgb;
+    vec3 mirrored_light = lit_ambient.rgb;
+    //@insert surface.vertex_light
+#ifdef LOCAL_LIGHTS
+    diffuse_light += local;
+#endif
+#ifdef VERTEX_COLOR
+    light_vertex(n, vertex_to_eye, color.rgb, diffuse_light, mirrored_light);
+#else
+    light_vertex(n, vertex_to_eye, vec3(1.0), diffuse_light, mirrored_light);
+#endif
+#endif
 #endif
 #ifdef NORMAL_MAP
     vec4 t = tangent_from_octahedral(tangent);

@@ -16,12 +16,17 @@ namespace halfframe {
 namespace {
 
 constexpr gl::Insertion kVertex{"surface.vertex", "environment/environment_vertex.glsl", "place_irradiance(n);"};
+constexpr gl::Insertion kVertexLight{"surface.vertex_light", nullptr, "diffuse_light += vertex_irradiance;"};
+constexpr const char* kMirrored = "mirrored_light += environment_reflection(mirrored, smoothness);";
 constexpr std::array kInsertions = {
-    kVertex, gl::Insertion{"surface.ambient", "environment/environment_cube.glsl",
+    kVertex, kVertexLight, gl::Insertion{"surface.mirrored", "environment/environment_cube.glsl", kMirrored},
+    gl::Insertion{"surface.ambient", "environment/environment_cube.glsl",
                            "diffuse_light += environment_irradiance(n); "
                            "mirrored_light += environment_reflection(reflect(-v, n), smoothness);"}};
 constexpr std::array kLowInsertions = {
-    kVertex, gl::Insertion{"surface.ambient", "environment/environment_low_fragment.glsl",
+    kVertex, kVertexLight,
+    gl::Insertion{"surface.mirrored", "environment/environment_low_fragment.glsl", kMirrored},
+    gl::Insertion{"surface.ambient", "environment/environment_low_fragment.glsl",
                            "diffuse_light += vertex_irradiance; "
                            "mirrored_light += environment_reflection(reflect(-v, n), smoothness);"}};
 

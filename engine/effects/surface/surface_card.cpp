@@ -21,7 +21,7 @@ constexpr std::string_view kDefines =
     "SPECULAR_GLOSSINESS SPECULAR_GLOSSINESS_MAP OCCLUSION_MAP OCCLUSION_PACKED OCCLUSION_IN_BASE UV_MAPPED UV_FROM_1 "
     "UV_B UV_B_FROM_1 BASE_COLOR_UV_B ROUGHNESS_UV_B NORMAL_UV_B EMISSIVE_UV_B OCCLUSION_UV_B SPECULAR_UV_B "
     "SPECULAR_COLOR_UV_B "
-    "SKIN_SMALL WATER WATER_VERTEX PUDDLES CONSTANT_SMOOTHNESS";
+    "SKIN_SMALL WATER WATER_VERTEX PUDDLES CONSTANT_SMOOTHNESS LIT_BY_VERTEX";
 constexpr std::string_view kDefinesAboveLow =
     "BASE_COLOR_MAP METALLIC_ROUGHNESS_MAP NORMAL_MAP PACKED_MAPS EMISSIVE_MAP VERTEX_COLOR ALPHA_MASK ALPHA_BLEND "
     "DOUBLE_SIDED SUN LOCAL_LIGHTS ONE_LIGHT TWO_LIGHTS THREE_LIGHTS FOUR_LIGHTS SPOT_LIGHTS AREA_LIGHTS UNLIT POINTS "
@@ -30,8 +30,8 @@ constexpr std::string_view kDefinesAboveLow =
     "UV_B UV_B_FROM_1 BASE_COLOR_UV_B ROUGHNESS_UV_B NORMAL_UV_B EMISSIVE_UV_B OCCLUSION_UV_B SPECULAR_UV_B "
     "SPECULAR_COLOR_UV_B "
     "SKIN_SMALL SKIN_LARGE SKIN_TEXTURE WATER WATER_VERTEX WATER_MAP WATER_UV_B PUDDLES CONSTANT_SMOOTHNESS";
-/// Neither is lit.
-constexpr std::string_view kSimpler = "UNLIT DISPLAY_COLOR";
+/// The first two are not lit, the third lights vertices.
+constexpr std::string_view kSimpler = "UNLIT DISPLAY_COLOR LIT_BY_VERTEX";
 constexpr std::array kShadersAtLow = {
     ShaderVariant{"surface/surface.vert", "surface/surface.frag", kDefines, kSimpler}};
 constexpr std::array kShaders = {
@@ -129,8 +129,8 @@ const EffectCard kSurface{
     .called_for_by = "surfaces that hide what is behind them",
     .budget_row = "surface",
     .tiers = {TierCard{kShadersAtLow, "scene_color, depth",
-                       "the sun by pixel with its highlight; local lights by vertex and diffuse only; mediump where "
-                       "the device has no highp"},
+                       "the sun by pixel with its highlight; local lights by vertex and diffuse only; from afar all "
+                       "diffuse light of untextured surfaces by vertex; mediump where the device has no highp"},
               TierCard{kShaders, "scene_color, depth", "every light by pixel with highlights to a power of 2048"},
               TierCard{kShaders, "scene_color, depth", "as console, with the lobe as written, in highp"}},
     .called_for = called_for,

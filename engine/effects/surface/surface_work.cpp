@@ -13,6 +13,7 @@
 #include <glm/gtc/color_space.hpp>
 
 #include "engine/effects/surface/surface.h"
+#include "engine/effects/surface/surface_by_vertex.h"
 #include "engine/frame/camera_space.h"
 #include "engine/frame/frame_plan.h"
 
@@ -180,6 +181,13 @@ int SurfaceWork::variant_of(Renderer& renderer, const std::vector<std::string_vi
     variant.parallel_eye = program.uniform_if_used("parallel_eye");
     variant.sun_direction = program.uniform_if_used("sun_direction");
     variant.sun_color = program.uniform_if_used("sun_color");
+    variant.lit_albedo = program.uniform_if_used("lit_albedo");
+    variant.lit_specular = program.uniform_if_used("lit_specular");
+    variant.lit_metal = program.uniform_if_used("lit_metal");
+    variant.lit_emission = program.uniform_if_used("lit_emission");
+    variant.lit_ambient = program.uniform_if_used("lit_ambient");
+    variant.lit_sun_direction = program.uniform_if_used("lit_sun_direction");
+    variant.lit_sun_color = program.uniform_if_used("lit_sun_color");
     variant.light_position = program.uniform_if_used("light_position");
     variant.light_color = program.uniform_if_used("light_color");
     variant.light_direction = program.uniform_if_used("light_direction");
@@ -242,6 +250,7 @@ void SurfaceWork::add_draw(Renderer& renderer, int index) {
     defines.insert(defines.end(), inserted.begin(), inserted.end());
     draw.variant = variant_of(renderer, defines, textures.used);
     renderer.note_use(*variants_[static_cast<std::size_t>(draw.variant)].program, material.name);
+    if (low) add_by_vertex(renderer, draw, textures, std::move(defines));
     if (draw.chooses_lights) {
         draw.light_set = static_cast<int>(light_sets_.size());
         lights.reserve(SURFACE_LIGHT_LIMIT + 1);
@@ -259,6 +268,23 @@ void SurfaceWork::add_draw(Renderer& renderer, int index) {
     }
     looks_.push_back(std::move(look));
     draws_.push_back(draw);
+}
+
+// Beside the program of `defines`, which the draw has, the one for afar: where no texture and no other effect makes a fragment
+// differ from what lies between its vertices.
+void SurfaceWork::add_by_vertex(Renderer& renderer, Draw& draw, const SurfaceTextures& textures,
+                                std::vector<std::string_view> defines) {
+    const Surface& surface = renderer.scene().surfaces[static_cast<std::size_t>(draw.surface)];
+    const Material& material = material_of(renderer, surface);
+    const bool plain = textures.used.empty() && !is_unlit(material) && !material.double_sided &&
+                       material.alpha_mode == AlphaMode::opaque && !draw.changes_shape;
+    if (!plain || !vertices_carry_insertions(renderer.plan(), defines)) return;
+    if (!turns_gently(renderer.scene().meshes[static_cast<std::size_t>(surface.mesh)])) return;
+    defines.push_back("LIT_BY_VERTEX");
+    const int by_vertex = variant_of(renderer, defines, textures.used);
+    variants_[static_cast<std::size_t>(draw.variant)].by_vertex = by_vertex;
+    renderer.note_use(*variants_[static_cast<std::size_t>(by_vertex)].program, material.name);
+    draw.lights_vertices = true;
 }
 
 SurfaceWork::SurfaceWork(Renderer& renderer, const EffectCard& card, SurfacePart part) : card_(card), part_(part) {
@@ -316,10 +342,13 @@ void SurfaceWork::set_variant(Renderer& renderer, const View& view, Variant& var
         glm::vec4(unknown);
     renderer.use(*variant.program);
     set(gl, variant.ambient, glm::vec4(exposed(renderer.scene().ambient, view.exposure), 0.0f));
+    set(gl, variant.lit_ambient, glm::vec4(exposed(renderer.scene().ambient, view.exposure), 0.0f));
     set(gl, variant.parallel_eye, view.orthographic ? glm::vec4(direction_to_eye(view), 0.0f) : kNotParallel);
     if (sun_) {
-        set(gl, variant.sun_direction, glm::vec4(-glm::normalize(sun_->direction), 0.0f));
-        set(gl, variant.sun_color, glm::vec4(exposed(sun_->color, view.exposure), 0.0f));
+        const glm::vec4 direction(-glm::normalize(sun_->direction), 0.0f);
+        const glm::vec4 color(exposed(sun_->color, view.exposure), 0.0f);
+        for (const int location : {variant.sun_direction, variant.lit_sun_direction}) set(gl, location, direction);
+        for (const int location : {variant.sun_color, variant.lit_sun_color}) set(gl, location, color);
     }
 }
 
@@ -344,6 +373,13 @@ void SurfaceWork::set_material(Renderer& renderer, const View& view, const Varia
     set(gl, variant.emissive, glm::vec4(emissive, material.alpha_cutoff));
     set(gl, variant.factors, factors_of(material, variant.maps_roughness));
     set(gl, variant.specular_factors, specular_factors_of(material));
+    if (variant.lit_albedo >= 0) {
+        const VertexLitMaterial lit = vertex_lit(material);
+        set(gl, variant.lit_albedo, lit.albedo);
+        set(gl, variant.lit_specular, lit.specular);
+        set(gl, variant.lit_metal, lit.metal);
+        set(gl, variant.lit_emission, glm::vec4(emissive, 0.0f));
+    }
     const Look& look = looks_[static_cast<std::size_t>(draw.look)];
     if (variant.uv_mapping >= 0) gl.Uniform4fv(variant.uv_mapping, 2, &look.uv_mapping[0].x);
     if (variant.uv_b_mapping >= 0) gl.Uniform4fv(variant.uv_b_mapping, 2, &look.uv_b_mapping[0].x);
@@ -441,16 +477,18 @@ void SurfaceWork::set_lights(Renderer& renderer, const View& view, Variant& vari
     set(gl, variant.light_count, glm::vec4(static_cast<float>(count), 0.0f, 0.0f, 0.0f));
 }
 
-void SurfaceWork::draw_one(Renderer& renderer, const View& view, Draw& draw) {
+void SurfaceWork::draw_one(Renderer& renderer, const View& view, Draw& draw, bool far) {
     const DrawMesh& mesh = renderer.mesh(draw.mesh);
     const glm::dmat4 eye = eye_from_stored(space_, draw.placed_at, mesh.stored);
     const glm::mat4 clip = clip_from_stored(space_, eye);
     // What changes its shape is stored as it is, so that its box needs no other measure.
     if (outside_view(draw.changes_shape ? renderer.box(draw.surface) : mesh.stored_box, clip)) return;
-    Variant& variant = variants_[static_cast<std::size_t>(draw.variant)];
-    if (current_variant_ != draw.variant) {
+    const int by_vertex = far ? variants_[static_cast<std::size_t>(draw.variant)].by_vertex : -1;
+    const int chosen = by_vertex >= 0 ? by_vertex : draw.variant;
+    Variant& variant = variants_[static_cast<std::size_t>(chosen)];
+    if (current_variant_ != chosen) {
         set_variant(renderer, view, variant);
-        current_variant_ = draw.variant;
+        current_variant_ = chosen;
         current_material_ = -1;
     }
     if (current_material_ != draw.material) {
@@ -498,6 +536,9 @@ void SurfaceWork::place(const Renderer& renderer, Draw& draw, Place& place) {
     draw.normal_from_local = glm::mat3(normal_from_local(surface.world_from_local));
     const Box box = world_box(renderer.box(draw.surface), surface.world_from_local);
     place.centre = (box.low + box.high) * 0.5f;
+    if (!draw.lights_vertices) return;
+    const glm::vec3 diagonal = (box.high - box.low) * kFarInDiagonals;
+    place.far_squared = glm::dot(diagonal, diagonal);
 }
 
 // One number orders a draw: state before distance for opaque ones, distance alone for those that blend. The bits of a
@@ -505,10 +546,11 @@ void SurfaceWork::place(const Renderer& renderer, Draw& draw, Place& place) {
 void SurfaceWork::sort(const View& view) {
     for (std::size_t i = 0; i < draws_.size(); ++i) {
         const glm::vec3 from_eye = places_[i].centre - view.eye;
-        const auto distance = std::bit_cast<std::uint32_t>(glm::dot(from_eye, from_eye));
+        const float squared = glm::dot(from_eye, from_eye);
+        const auto distance = std::bit_cast<std::uint32_t>(squared);
         std::uint64_t key = std::uint64_t{places_[i].state} << 32 | (depth_is_there_ ? 0 : distance);
         if (part_ == SurfacePart::transparent) key = ~distance;
-        order_[i] = {key, static_cast<std::uint32_t>(i)};
+        order_[i] = {key, static_cast<std::uint32_t>(i), squared >= places_[i].far_squared};
     }
     sort_by_key(order_, sorting_);
 }
@@ -530,7 +572,7 @@ void SurfaceWork::draw(Renderer& renderer, const View& view, int) {
     sort(view);
     for (std::size_t i = 0; i < order_.size(); ++i) {
         will_read(&draws_[order_[std::min(i + kAhead, order_.size() - 1)].draw], sizeof(Draw));
-        draw_one(renderer, view, draws_[order_[i].draw]);
+        draw_one(renderer, view, draws_[order_[i].draw], order_[i].far);
     }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -30,6 +31,7 @@ public:
     struct Order {
         std::uint64_t key = 0;
         std::uint32_t draw = 0;
+        bool far = false;  ///< enough for the program that lights vertices
     };
 
 private:
@@ -39,11 +41,14 @@ private:
         std::vector<std::string_view> defines;
         bool maps_roughness = false;
         bool has_insertions = false;  ///< of effects that may want to know the material
+        int by_vertex = -1;           ///< in variants_: the same, lit by vertex; -1: there is none
         int uv_mapping = -1, uv_b_mapping = -1, specular_factors = -1;
         int clip_from_local = -1, eye_from_local = -1, normal_from_local = -1, toward_eye = -1;
         int uv_range = -1, uv1_range = -1, direction_scale = -1;
         int base_color = -1, emissive = -1, factors = -1, ambient = -1, parallel_eye = -1;
         int sun_direction = -1, sun_color = -1;
+        int lit_albedo = -1, lit_specular = -1, lit_metal = -1, lit_emission = -1, lit_ambient = -1;
+        int lit_sun_direction = -1, lit_sun_color = -1;
         // What the program was last told, since it became current.
         glm::vec4 told_uv_range{0.0f}, told_uv1_range{0.0f}, told_direction_scale{0.0f}, told_toward_eye{0.0f};
         int told_light_set = -1;
@@ -67,6 +72,7 @@ private:
         bool double_sided = false;
         bool changes_shape = false;
         bool chooses_lights = false;  ///< anew in every frame: it moves, or a lamp does
+        bool lights_vertices = false;  ///< from afar, with the variant of its variant
         // What follows from the place of the surface, until it moves.
         glm::mat3 normal_from_local{1.0f};
         glm::mat4 placed_at{0.0f};
@@ -80,6 +86,7 @@ private:
     struct Place {
         glm::vec3 centre{0.0f};   ///< of its box [m], world
         std::uint32_t state = 0;  ///< rank among the states that draws_ stands by: equal ones need no change between
+        float far_squared = std::numeric_limits<float>::infinity();  ///< [m^2] from the eye: vertices are lit from there on
     };
     /// The lights of one object or many, and what their lengths are multiplied with in this frame.
     struct LightSet {
@@ -95,6 +102,8 @@ private:
     int variant_of(Renderer& renderer, const std::vector<std::string_view>& defines,
                    std::span<const SurfaceTexture> textures);
     void add_draw(Renderer& renderer, int surface);
+    void add_by_vertex(Renderer& renderer, Draw& draw, const SurfaceTextures& textures,
+                       std::vector<std::string_view> defines);
     void rank_states();
     void place_all(const Renderer& renderer);
     void place(const Renderer& renderer, Draw& draw, Place& place);
@@ -110,7 +119,7 @@ private:
     int light_set_of(std::vector<int> lights);
     void choose_lights(const Renderer& renderer, const View& view, Variant& variant, const Draw& draw);
     void set_lights(Renderer& renderer, const View& view, Variant& variant, const Draw& draw, float scale);
-    void draw_one(Renderer& renderer, const View& view, Draw& draw);
+    void draw_one(Renderer& renderer, const View& view, Draw& draw, bool far);
 
     const EffectCard& card_;
     int crowded_ = 0;  ///< surfaces that more lights reach than are drawn, and the worst of them

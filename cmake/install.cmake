@@ -13,6 +13,7 @@ set(HALFFRAME_PUBLIC_HEADERS
   engine/frame/budget.h
   engine/frame/cost_table.h
   engine/frame/draw_state.h
+  engine/frame/early_flush.h
   engine/frame/effect_card.h
   engine/frame/frame_plan.h
   engine/frame/image.h

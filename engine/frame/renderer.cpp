@@ -173,6 +173,7 @@ void Renderer::update_moving_meshes() {
 }
 
 void Renderer::begin(const Pass& pass, std::uint32_t framebuffer) {
+    unflushed_triangles_ = 0;
     gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     const Target& sized = plan_.targets[static_cast<std::size_t>(pass.color ? *pass.color : *pass.depth)];
     gl_.Viewport(0, 0, sized.width, sized.height);
@@ -416,11 +417,17 @@ void Renderer::draw_mesh(const DrawMesh& mesh) {
 }
 
 void Renderer::draw_part(const DrawMesh& mesh, const DrawPart& part) {
+    unflushed_triangles_ += part.triangles;
     if (part.indices) {
         gl_.DrawElements(mesh.mode, part.count, part.index_type, nullptr);
     } else {
         gl_.DrawArrays(mesh.mode, 0, part.count);
     }
+}
+
+void Renderer::flush() {
+    gl_.Flush();
+    unflushed_triangles_ = 0;
 }
 
 void Renderer::draw_surface(int surface, int skin_location) {

@@ -11,6 +11,7 @@
 
 #include "engine/error.h"
 #include "engine/frame/draw_state.h"
+#include "engine/frame/early_flush.h"
 #include "engine/frame/frame_plan.h"
 #include "engine/frame/image.h"
 #include "engine/frame/moving_meshes.h"
@@ -134,6 +135,12 @@ public:
     void draw_mesh(const DrawMesh& mesh);
     /// Draws a surface as its pose has it, with a program made with its skin_define().
     void draw_surface(int surface, int skin_location);
+    /// Has this pass drawn so much since its last flush that it should be flushed if as much is to come? See
+    /// engine/frame/early_flush.h; false on drivers that begin by themselves.
+    [[nodiscard]] bool flush_is_due() const {
+        return caps_.rasters_at_flush && unflushed_triangles_ >= kFlushTriangles;
+    }
+    void flush();  ///< between two draws of a pass
     void set_depth(bool test, bool write, std::uint32_t function) { state_.set_depth(test, write, function); }
     void set_cull(bool on) { state_.set_cull(on); }
     void set_blend(Blend blend) { state_.set_blend(blend); }
@@ -198,6 +205,7 @@ private:
     std::size_t texture_bytes_ = 0;
     std::size_t own_texture_bytes_ = 0;
     std::vector<std::string> notices_;
+    std::int64_t unflushed_triangles_ = 0;  ///< of the pass being drawn
     std::uint32_t first_error_ = 0;
 };
 

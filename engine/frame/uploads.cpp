@@ -153,6 +153,7 @@ DrawPart upload_piece(gl::EntryPoints& gl, const gl::Caps& caps, const MeshPiece
                           piece.indices.data(), GL_STATIC_DRAW);
         }
     }
+    part.triangles = triangles_in(piece.primitive, part.count);
     if (part.array) {
         set_vertex_layout(gl, layout);
         for (int i = 0; i < layout.count; ++i)
@@ -233,6 +234,25 @@ void set_vertex_layout(gl::EntryPoints& gl, const VertexLayout& layout) {
         gl.VertexAttribPointer(attribute, stream.components, stream.type, stream.normalized ? GL_TRUE : GL_FALSE,
                                layout.stride, reinterpret_cast<const void*>(static_cast<std::size_t>(stream.offset)));
     }
+}
+
+int triangles_in(Primitive primitive, int count) {
+    switch (primitive) {
+        case Primitive::points:
+        case Primitive::lines:
+        case Primitive::line_loop:
+        case Primitive::line_strip: return 0;
+        case Primitive::triangles: return count / 3;
+        case Primitive::triangle_strip:
+        case Primitive::triangle_fan: return std::max(count - 2, 0);
+    }
+    throw Mistake("a primitive whose triangles nobody has counted");
+}
+
+std::int64_t DrawMesh::triangles() const {
+    std::int64_t sum = 0;
+    for (const DrawPart& part : parts) sum += part.triangles;
+    return sum;
 }
 
 DrawMesh upload_mesh(gl::EntryPoints& gl, const gl::Caps& caps, const Mesh& mesh, const MeshStorage& storage) {

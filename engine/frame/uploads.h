@@ -24,6 +24,7 @@ struct DrawPart {
     std::uint32_t index_type = 0;
     int count = 0;  ///< indices, or vertices without them
     int vertex_count = 0;
+    int triangles = 0;                   ///< that a draw of it makes; points and lines: 0
     std::vector<std::uint32_t> sources;  ///< vertex of the mesh behind each of the part's; empty: the same
 };
 
@@ -41,6 +42,7 @@ struct DrawMesh {
     bool has_tangents = false;
     bool has_colors = false;
     bool has_uv1 = false;
+    [[nodiscard]] std::int64_t triangles() const;  ///< of all parts
 };
 
 /// A mesh, or a piece of one, as the device will have it.
@@ -56,6 +58,10 @@ struct MeshPiece {
 /// Strips, fans and loops that need cutting become lists first. Pure.
 [[nodiscard]] std::vector<MeshPiece> packed_pieces(const Mesh& mesh, const MeshStorage& storage,
                                                    std::size_t max_vertices);
+
+/// Triangles that a draw of so many indices, or of vertices without them, makes, those without area too; of points and
+/// lines 0.
+[[nodiscard]] int triangles_in(Primitive primitive, int count);
 
 [[nodiscard]] DrawMesh upload_mesh(gl::EntryPoints& gl, const gl::Caps& caps, const Mesh& mesh,
                                    const MeshStorage& storage);

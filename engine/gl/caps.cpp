@@ -360,7 +360,7 @@ Caps read_caps(EntryPoints& gl) {
     for (const char* rasteriser : {"llvmpipe", "softpipe", "SwiftShader", "Software Rasterizer"}) {
         caps.software = caps.software || caps.renderer.find(rasteriser) != std::string::npos;
     }
-    caps.gathers_uniforms = caps.renderer.find("llvmpipe") != std::string::npos;
+    caps.gathers_uniforms = caps.rasters_at_flush = caps.renderer.find("llvmpipe") != std::string::npos;
     caps.fragment_mediump = read_precision(gl, GL_FRAGMENT_SHADER, GL_MEDIUM_FLOAT);
     caps.fragment_highp_format = read_precision(gl, GL_FRAGMENT_SHADER, GL_HIGH_FLOAT);
     caps.fragment_highp = caps.fragment_highp_format.precision > 0;
@@ -378,6 +378,7 @@ Caps masked(const Caps& caps, const DeviceProfile& profile) {
     const Mask mask(caps, profile);
     poorer.device = profile.name;
     poorer.gathers_uniforms = false;  // what it imitates has no such driver, nor varyings to spare
+    poorer.rasters_at_flush = false;  // and would pay for it: a tiler stores and loads its tiles at a flush
     poorer.es_version = std::min(caps.es_version, profile.es_version);
     if (profile.fragment_highp && !*profile.fragment_highp) {
         poorer.fragment_highp = false;

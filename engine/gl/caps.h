@@ -32,6 +32,7 @@ struct Caps {
     bool core_profile = false;  ///< desktop core profile: a vertex array object must be bound
     bool software = false;      ///< a CPU rasteriser (llvmpipe, softpipe, SwiftShader)
     bool gathers_uniforms = false;  ///< llvmpipe: fragment uniforms are dear; engine/gl/uniforms_by_vertex.h
+    bool rasters_at_flush = false;  ///< llvmpipe: a pass of many triangles is flushed; engine/frame/early_flush.h
     bool fragment_highp = true;
     PrecisionFormat fragment_mediump;
     PrecisionFormat fragment_highp_format;

@@ -38,6 +38,7 @@ HALFFRAME_GL(es20, void, DrawElements, (GLenum mode, GLsizei count, GLenum type,
 HALFFRAME_GL(es20, void, Enable, (GLenum capability), (capability))
 HALFFRAME_GL(es20, void, EnableVertexAttribArray, (GLuint index), (index))
 HALFFRAME_GL(es20, void, Finish, (), ())
+HALFFRAME_GL(es20, void, Flush, (), ())
 HALFFRAME_GL(es20, void, FramebufferRenderbuffer, (GLenum target, GLenum attachment, GLenum renderbuffer_target, GLuint renderbuffer), (target, attachment, renderbuffer_target, renderbuffer))
 HALFFRAME_GL(es20, void, FramebufferTexture2D, (GLenum target, GLenum attachment, GLenum texture_target, GLuint texture, GLint level), (target, attachment, texture_target, texture, level))
 HALFFRAME_GL(es20, void, FrontFace, (GLenum mode), (mode))

@@ -477,12 +477,16 @@ void SurfaceWork::set_lights(Renderer& renderer, const View& view, Variant& vari
     set(gl, variant.light_count, glm::vec4(static_cast<float>(count), 0.0f, 0.0f, 0.0f));
 }
 
+// What changes its shape is stored as it is, so that its box needs no other measure.
+bool SurfaceWork::is_outside(const Renderer& renderer, const Draw& draw, const glm::mat4& clip) {
+    return outside_view(draw.changes_shape ? renderer.box(draw.surface) : renderer.mesh(draw.mesh).stored_box, clip);
+}
+
 void SurfaceWork::draw_one(Renderer& renderer, const View& view, Draw& draw, bool far) {
     const DrawMesh& mesh = renderer.mesh(draw.mesh);
     const glm::dmat4 eye = eye_from_stored(space_, draw.placed_at, mesh.stored);
     const glm::mat4 clip = clip_from_stored(space_, eye);
-    // What changes its shape is stored as it is, so that its box needs no other measure.
-    if (outside_view(draw.changes_shape ? renderer.box(draw.surface) : mesh.stored_box, clip)) return;
+    if (is_outside(renderer, draw, clip)) return;
     const int by_vertex = far ? variants_[static_cast<std::size_t>(draw.variant)].by_vertex : -1;
     const int chosen = by_vertex >= 0 ? by_vertex : draw.variant;
     Variant& variant = variants_[static_cast<std::size_t>(chosen)];
@@ -555,6 +559,18 @@ void SurfaceWork::sort(const View& view) {
     sort_by_key(order_, sorting_);
 }
 
+// Looks no further than it must: all looks of a frame together pass each draw at most once.
+bool SurfaceWork::as_much_to_come(const Renderer& renderer, std::size_t from) const {
+    std::int64_t triangles = 0;
+    for (std::size_t i = from; i < order_.size() && triangles < kFlushTriangles; ++i) {
+        const Draw& draw = draws_[order_[i].draw];
+        const DrawMesh& mesh = renderer.mesh(draw.mesh);
+        const glm::dmat4 eye = eye_from_stored(space_, draw.placed_at, mesh.stored);
+        if (!is_outside(renderer, draw, clip_from_stored(space_, eye))) triangles += mesh.triangles();
+    }
+    return triangles >= kFlushTriangles;
+}
+
 void SurfaceWork::draw(Renderer& renderer, const View& view, int) {
     current_variant_ = -1;
     current_material_ = -1;
@@ -570,8 +586,13 @@ void SurfaceWork::draw(Renderer& renderer, const View& view, int) {
     for (LightSet& set : light_sets_) set.scale = length_scale_of(renderer, view, set);
     place_all(renderer);
     sort(view);
+    bool may_flush = true;
     for (std::size_t i = 0; i < order_.size(); ++i) {
         will_read(&draws_[order_[std::min(i + kAhead, order_.size() - 1)].draw], sizeof(Draw));
+        if (may_flush && renderer.flush_is_due()) {
+            may_flush = as_much_to_come(renderer, i);
+            if (may_flush) renderer.flush();
+        }
         draw_one(renderer, view, draws_[order_[i].draw], order_[i].far);
     }
 }

@@ -119,6 +119,8 @@ private:
     int light_set_of(std::vector<int> lights);
     void choose_lights(const Renderer& renderer, const View& view, Variant& variant, const Draw& draw);
     void set_lights(Renderer& renderer, const View& view, Variant& variant, const Draw& draw, float scale);
+    [[nodiscard]] static bool is_outside(const Renderer& renderer, const Draw& draw, const glm::mat4& clip);
+    [[nodiscard]] bool as_much_to_come(const Renderer& renderer, std::size_t from) const;
     void draw_one(Renderer& renderer, const View& view, Draw& draw, bool far);
 
     const EffectCard& card_;

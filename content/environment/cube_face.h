@@ -1,4 +1,4 @@
-// Directions of a cube map's texels, as OpenGL ES 3.0 (table 3.22) lays the faces out.
+// Directions of a cube map's texels.
 #pragma once
 
 #include <algorithm>
@@ -6,19 +6,9 @@
 
 #include <glm/glm.hpp>
 
-namespace halfframe::content {
+#include "engine/frame/cube_face.h"
 
-/// Where u, v (-1..1 across a face, v down its rows) of face 0..5 (+X -X +Y -Y +Z -Z) looks. Not unit.
-[[nodiscard]] inline glm::dvec3 face_direction(int face, double u, double v) {
-    switch (face) {
-        case 0: return {1.0, -v, -u};
-        case 1: return {-1.0, -v, u};
-        case 2: return {u, 1.0, v};
-        case 3: return {u, -1.0, -v};
-        case 4: return {u, -v, 1.0};
-        default: return {-u, -v, -1.0};
-    }
-}
+namespace halfframe::content {
 
 /// Number of the texel that a direction falls into, on faces of `size` texels: face * size^2 + row * size + column.
 [[nodiscard]] inline int texel_of(const glm::dvec3& direction, int size) {

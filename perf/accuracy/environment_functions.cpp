@@ -119,7 +119,24 @@ std::vector<FunctionEntry> environment_functions() {
     mixed.half = {0.2,
                   "the weight is a rounded difference, 2^-11, of two colours up to 2 apart: 1e-3 of light in the dark"};
     mixed.flushed = {0.2, "as half"};
-    return {diffuse, level, unpacked, mixed};
+
+    FunctionEntry bands = entry("bands_about_axis", "cosines -1..1, two colours -1..1");
+    bands.arguments = [] {
+        Columns u = unit_cube(7);
+        for (auto& column : u) {
+            for (double& value : column) value = 2.0 * value - 1.0;
+        }
+        return std::vector<Argument>{{"along", {u[0]}}, {"third", {u[1], u[2], u[3]}}, {"fourth", {u[4], u[5], u[6]}}};
+    };
+    bands.reference = [](const Lane& in, std::size_t s) {
+        return reference::axis_bands(in(0), in(1, s), in(2, s));
+    };
+    bands.unit = Unit::absolute;
+    bands.method = {1e-6, kSameFormula};
+    bands.in_float = {2e-6, kFloatRounding};
+    bands.half = {1e-3, "the polynomials are FULL; two products and their sum of up to 2 are rounded"};
+    bands.flushed = {1e-3, "as half"};
+    return {diffuse, level, unpacked, mixed, bands};
 }
 
 }  // namespace halfframe::accuracy

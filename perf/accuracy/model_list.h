@@ -2,11 +2,13 @@
 // the function list shows that the shaders say the same.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <string>
 #include <vector>
 
+#include "engine/effects/environment/environment_reference.h"
 #include "engine/effects/transparent/transparent_reference.h"
 #include "engine/effects/wet_surface/wet_surface_reference.h"
 #include "perf/accuracy/function_list.h"
@@ -49,6 +51,8 @@ struct ModelAccuracy {
 using LevelOfSmoothness = double (*)(double smoothness, double roughest_level);
 [[nodiscard]] ModelEntry reflection_between_levels(LevelOfSmoothness level);
 [[nodiscard]] ModelEntry reflection_of_constant_smoothness(LevelOfSmoothness level);
+using RoughReflection = double (*)(const std::array<double, 3>& toward, const reference::RoughTerms& terms);
+[[nodiscard]] ModelEntry reflection_by_vertex(RoughReflection reflection);
 
 // The models of the surface, with what a test may plant: how a roughness becomes a power, how a smoothness brightens.
 using PowerOfRoughness = double (*)(double roughness);

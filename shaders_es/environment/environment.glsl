@@ -14,6 +14,14 @@ vec3 irradiance(FULL vec3 n, vec3 c0, vec3 c1, vec3 c2, vec3 c3, vec3 c4, vec3 c
     return max(sum, vec3(0.0));
 }
 
+// What bands 3 and 4 add about one axis, as Legendre's polynomials of the cosine with it. FULL: as above.
+//@domain along: -1..1; third, fourth: -64..64
+//@promise in -128.5..128.5
+vec3 bands_about_axis(FULL float along, vec3 third, vec3 fourth) {
+    FULL float square = along * along;
+    return third * (along * (2.5 * square - 1.5)) + fourth * (square * (4.375 * square - 3.75) + 0.375);
+}
+
 // Which level to read for a smoothness 0..1; roughest is the level of smoothness 0. Powers grow by a factor of 5.6 from one
 // level to the next and a blend of two lobes is no lobe of a power between: bending the fraction evens out what is too
 // bright in the blend's peak and too dark on its flanks (`halfframe accuracy environment`, "between levels").

@@ -5,7 +5,7 @@
 //   surface.ambient   diffuse_light and mirrored_light, what falls in from everywhere, may be changed
 //   surface.sun       sun_light may be dimmed
 //   surface.mirrored  mirrored_light, that of the ray `mirrored`, may be changed (only in programs with LIT_BY_VERTEX, which have none
-//                     of the points above)
+//                     of the points above, and not in those with MIRROR_BY_VERTEX)
 //   surface.lighting  light holds all reflected light
 //   surface.color     color holds what will be stored
 //
@@ -27,11 +27,13 @@ FRAGMENT_IN FULL vec3 vertex_to_eye;  // FULL: metres, see surface.vert
 FRAGMENT_IN HALF vec3 vertex_normal;
 #endif
 #else
+FRAGMENT_IN HALF vec3 vertex_light;     // all that is diffuse, and the emission; with MIRROR_BY_VERTEX all
+#ifndef MIRROR_BY_VERTEX
 FRAGMENT_IN FULL vec3 vertex_mirrored;  // FULL: metres
-FRAGMENT_IN HALF vec3 vertex_light;     // all that is diffuse, and the emission
 FRAGMENT_IN HALF vec3 vertex_mirror;  // Fresnel: what multiplies the light of the mirrored ray
 #ifdef SUN
 FRAGMENT_IN HALF vec4 vertex_highlight;  // rgb in its middle, w power
+#endif
 #endif
 #endif
 #ifdef NORMAL_MAP
@@ -81,7 +83,7 @@ uniform FULL vec4 light_size[LIGHT_SLOTS];  // FULL: metres squared; x radius [m
 #endif
 #endif
 
-#if defined(SUN) && !defined(UNLIT)
+#if defined(SUN) && !defined(UNLIT) && !defined(MIRROR_BY_VERTEX)
 FRAGMENT_UNIFORM HALF vec4 sun_direction;  // xyz unit, towards the sun
 #endif
 
@@ -119,6 +121,8 @@ void main() {
     vec3 light = inverse_tone_map(shown);
 #elif defined(UNLIT)
     vec3 light = base.rgb + emission;
+#elif defined(MIRROR_BY_VERTEX)
+    vec3 light = vertex_light;
 #elif defined(LIT_BY_VERTEX)
     // FULL: the highlight is its distance to the sun.
     FULL vec3 mirrored = vertex_mirrored * inversesqrt(max(dot(vertex_mirrored, vertex_mirrored), 6.2e-5));

@@ -2,6 +2,7 @@
 // subtracts in double), so a scene 10 km from the origin shades as it does at the origin. Insertion point:
 //   surface.vertex        at [m] from the eye, n (the side that is seen where vertices are lit); lit surfaces only
 //   surface.vertex_light  diffuse_light and mirrored_light, what falls in from everywhere, may be changed; with LIT_BY_VERTEX only
+//   surface.vertex_mirrored  mirrored_light, that of the unit ray `mirrored`, may be changed; with MIRROR_BY_VERTEX only
 #include "surface/surface_limits.h"
 #include "surface/surface_lights.glsl"
 #include "common/maths.glsl"
@@ -133,6 +134,10 @@ void main() {
     vec3 diffuse_light = lit_ambient.rgb;
     vec3 mirrored_light = lit_ambient.rgb;
     //@insert surface.vertex_light
+#ifdef MIRROR_BY_VERTEX
+    vec3 mirrored = normalize(mirrored_ray(n, vertex_to_eye));
+    //@insert surface.vertex_mirrored
+#endif
 #ifdef LOCAL_LIGHTS
     diffuse_light += local;
 #endif

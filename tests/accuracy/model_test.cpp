@@ -87,6 +87,24 @@ TEST(Models, AnotherReflectionOfTheEnvironmentIsCaught) {
     }
 }
 
+TEST(Models, AnotherReflectionByVertexIsCaught) {
+    using reference::RoughTerms;
+    using Toward = std::array<double, 3>;
+    const RoughReflection of_two_bands = [](const Toward& toward, const RoughTerms& terms) {
+        return reference::rough_reflection(toward, {.nine = terms.nine});
+    };
+    const RoughReflection of_three_bands = [](const Toward& toward, const RoughTerms& terms) {
+        return reference::rough_reflection(toward, {.nine = terms.nine, .axis = terms.axis, .third = terms.third});
+    };
+    const RoughReflection turned = [](const Toward& toward, const RoughTerms& terms) {
+        return reference::rough_reflection({-toward[0], -toward[1], -toward[2]}, terms);
+    };
+    for (const RoughReflection wrong : {of_two_bands, of_three_bands, turned}) {
+        const ModelAccuracy found = measure(reflection_by_vertex(wrong));
+        EXPECT_FALSE(found.violations.empty()) << found.mean << " " << found.lowest << " " << found.highest;
+    }
+}
+
 TEST(Models, AnotherWayOfGettingWetIsCaught) {
     using reference::DryMaterial;
     using reference::WetMaterial;

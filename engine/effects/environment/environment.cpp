@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "engine/effects/environment/reflection_harmonics.h"
+#include "engine/effects/surface/surface_by_vertex.h"
 #include "engine/frame/frame_plan.h"
 #include "engine/frame/renderer.h"
 #include "shaders_es/environment/environment_limits.h"
@@ -17,6 +19,8 @@ namespace {
 
 constexpr gl::Insertion kVertex{"surface.vertex", "environment/environment_vertex.glsl", "place_irradiance(n);"};
 constexpr gl::Insertion kVertexLight{"surface.vertex_light", nullptr, "diffuse_light += vertex_irradiance;"};
+constexpr gl::Insertion kVertexMirrored{"surface.vertex_mirrored", nullptr,
+                                       "mirrored_light += rough_reflection(mirrored);"};
 constexpr const char* kMirrored = "mirrored_light += environment_reflection(mirrored, smoothness);";
 constexpr std::array kInsertions = {
     kVertex, kVertexLight, gl::Insertion{"surface.mirrored", "environment/environment_cube.glsl", kMirrored},
@@ -24,7 +28,7 @@ constexpr std::array kInsertions = {
                            "diffuse_light += environment_irradiance(n); "
                            "mirrored_light += environment_reflection(reflect(-v, n), smoothness);"}};
 constexpr std::array kLowInsertions = {
-    kVertex, kVertexLight,
+    kVertex, kVertexLight, kVertexMirrored,
     gl::Insertion{"surface.mirrored", "environment/environment_low_fragment.glsl", kMirrored},
     gl::Insertion{"surface.ambient", "environment/environment_low_fragment.glsl",
                            "diffuse_light += vertex_irradiance; "
@@ -87,6 +91,7 @@ public:
         Adopted adopted;
         adopted.scale = program.uniform_if_used("reflection_scale");
         adopted.terms = program.uniform_if_used("irradiance_terms");
+        adopted.mirror = program.uniform_if_used("mirror_terms");
         for (const auto& [sampler, unit] :
              {std::pair{"reflection_map", kReflectionUnit}, std::pair{"one_level_map", kReflectionUnit},
               std::pair{"rough_reflection_map", kRoughReflectionUnit}}) {
@@ -103,6 +108,7 @@ public:
     void feed(Renderer& renderer, const View& view, int index) override {
         const Adopted& adopted = adopted_[static_cast<std::size_t>(index)];
         gl::EntryPoints& gl = renderer.gl();
+        view_exposure_ = view.exposure;
         if (adopted.scale >= 0) {
             const float scale =
                 tier_ == Tier::reference ? view.exposure / exposure_ : root_range_ * std::sqrt(view.exposure);
@@ -126,9 +132,14 @@ public:
     }
 
     void feed_material(Renderer& renderer, int index, int material) override {
-        if (adopted_[static_cast<std::size_t>(index)].reads_levels || steps_.empty()) return;
-        Chosen& chosen = chosen_[static_cast<std::size_t>(material)];
+        const Adopted& adopted = adopted_[static_cast<std::size_t>(index)];
+        if (adopted.reads_levels || steps_.empty()) return;
         const float roughness = unmapped_roughness(renderer.material(material));
+        if (adopted.mirror >= 0) {
+            tell_harmonics(renderer, adopted.mirror, step_of(roughness));
+            return;
+        }
+        Chosen& chosen = chosen_[static_cast<std::size_t>(material)];
         if (chosen.roughness != roughness) chosen = {roughness, nearest_cube(step_of(roughness))};
         renderer.bind_cube(kReflectionUnit, chosen.cube);
     }
@@ -137,12 +148,18 @@ private:
     struct Adopted {
         int scale = -1;
         int terms = -1;
+        int mirror = -1;
         bool reads_levels = false;
     };
     /// Level step / ENVIRONMENT_STEPS as a cube of its own.
     struct StepCube {
         int step;
         gl::Texture cube;
+    };
+
+    struct RoughStep {
+        int step;
+        ReflectionHarmonics harmonics;
     };
 
     /// The cube of a material, for the roughness that it was chosen for; -1: none yet.
@@ -158,6 +175,23 @@ private:
     [[nodiscard]] std::uint32_t nearest_cube(int step) const {
         const auto distance = [step](const StepCube& one) { return std::abs(one.step - step); };
         return std::ranges::min_element(steps_, {}, distance)->cube.name();
+    }
+
+    /// Of the rough step that is nearest.
+    void tell_harmonics(Renderer& renderer, int location, int step) const {
+        if (rough_steps_.empty()) return;
+        const auto distance = [step](const RoughStep& one) { return std::abs(one.step - step); };
+        ReflectionHarmonics terms = std::ranges::min_element(rough_steps_, {}, distance)->harmonics;
+        for (std::size_t i = 0; i < terms.size(); ++i) {
+            if (i != kHarmonicsAxis) terms[i] *= view_exposure_;
+        }
+        renderer.gl().Uniform4fv(location, static_cast<GLsizei>(terms.size()), &terms[0].x);
+    }
+
+    /// What fragments would read of `texels`: RGBM8 cuts at its range.
+    [[nodiscard]] ReflectionHarmonics harmonics_of(std::vector<glm::vec3> texels, int side) const {
+        for (glm::vec3& texel : texels) texel = glm::min(texel, glm::vec3(root_range_ * root_range_));
+        return reflection_harmonics(texels, side);
     }
 
     /// A cube for each smoothness that equally smooth surfaces have.
@@ -177,6 +211,8 @@ private:
             gl::Texture cube = begin_cube(renderer, GL_LINEAR);
             renderer.count_texture_bytes(upload_texels(renderer, texels, map_.size >> level, 0));
             steps_.push_back({step, std::move(cube)});
+            if (tier_ == Tier::low && mirrors_by_vertex(renderer.material(surfaces[i].material)))
+                rough_steps_.push_back({step, harmonics_of(texels, map_.size >> level)});
         }
     }
 
@@ -270,6 +306,8 @@ private:
     float root_range_;
     int first_level_ = 0;
     std::vector<StepCube> steps_;
+    std::vector<RoughStep> rough_steps_;
+    float view_exposure_ = 1.0f;  ///< of the frame being drawn
     std::vector<Chosen> chosen_;  ///< by material
     gl::Texture sharp_;
     gl::Texture rough_;

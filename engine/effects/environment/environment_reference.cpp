@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 namespace halfframe::reference {
 
@@ -33,6 +34,19 @@ double low_reflection(double diffuse, double rough, double sharp, double smoothn
     if (smoothness <= 0.35) return diffuse + (rough - diffuse) * smoothness / 0.35;
     if (smoothness <= 0.75) return rough + (sharp - rough) * (smoothness - 0.35) / 0.4;
     return sharp;
+}
+
+double axis_bands(double cosine, double third, double fourth) {
+    return third * std::legendre(3, cosine) + fourth * std::legendre(4, cosine);
+}
+
+double rough_reflection(const std::array<double, 3>& toward, const RoughTerms& terms) {
+    const auto [x, y, z] = toward;
+    const std::array<double, 9> polynomials{1.0, y, z, x, x * y, y * z, 3.0 * z * z - 1.0, x * z, x * x - y * y};
+    const double cosine =
+        std::clamp(std::inner_product(toward.begin(), toward.end(), terms.axis.begin(), 0.0), -1.0, 1.0);
+    const double sum = std::inner_product(polynomials.begin(), polynomials.end(), terms.nine.begin(), 0.0);
+    return std::max(sum + axis_bands(cosine, terms.third, terms.fourth), 0.0);
 }
 
 namespace {

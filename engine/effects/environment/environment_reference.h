@@ -26,6 +26,20 @@ namespace halfframe::reference {
 /// which stays. Our own choice of places: see the README.
 [[nodiscard]] double low_reflection(double diffuse, double rough, double sharp, double smoothness);
 
+/// One channel of what vertices know of a rough reflection: the factors of the nine polynomials of irradiance(), and those of
+/// Legendre's polynomials of band 3 and 4 about a unit axis.
+struct RoughTerms {
+    std::array<double, 9> nine{};
+    std::array<double, 3> axis{};
+    double third = 0.0, fourth = 0.0;
+};
+
+/// third P3(cosine) + fourth P4(cosine), Legendre's polynomials.
+[[nodiscard]] double axis_bands(double cosine, double third, double fourth);
+
+/// The light that a rough surface mirrors of the unit ray `toward`; never below 0.
+[[nodiscard]] double rough_reflection(const std::array<double, 3>& toward, const RoughTerms& terms);
+
 /// One channel of the light that leaves towards the unit vector `to_eye` when a surface of normal (0, 0, 1) reflects
 /// `radiance(direction)` by the Blinn microfacet model, without the albedo: the integral over the hemisphere of
 /// F(l.h) (power + 2) / (8 pi) (n.h)^power radiance(l) (n.l). `steps` a side of the grid of half vectors; 256 are

@@ -53,12 +53,15 @@ bool vertices_carry_insertions(const FramePlan& plan, std::span<const std::strin
                                        [&](const gl::Insertion& one) { return is_here(one) && one.point == point; });
         };
         if (adds_at("surface.mirrored") && !has("CONSTANT_SMOOTHNESS")) return false;
+        if (adds_at("surface.mirrored") && has("MIRROR_BY_VERTEX") && !adds_at("surface.vertex_mirrored")) return false;
         return adds_at("surface.vertex_light") ||
                std::ranges::all_of(decision.insertions, [&](const gl::Insertion& one) {
                    return !is_here(one) || is_behind_the_light(one.point);
                });
     });
 }
+
+bool mirrors_by_vertex(const Material& material) { return unmapped_roughness(material) >= kRoughByVertex; }
 
 VertexLitMaterial vertex_lit(const Material& material) {
     const float power = power_of(unmapped_roughness(material));

@@ -23,13 +23,22 @@ inline constexpr double kSteepShare = 0.05;
 /// triangles would mirror at its middle as it does at its corners.
 inline constexpr float kFarInDiagonals = 2.0f;
 
+/// Roughness 0..1 from which on vertices carry what a material mirrors and the sun's highlight on it too: a Blinn power of 4.3
+/// at most. The lobe about the mirrored ray is then nearly as wide as the cosine of diffuse light, and harmonics
+/// are 4 display codes off at most beside a small lamp (`halfframe accuracy environment`, "reflection, by vertex").
+inline constexpr float kRoughByVertex = 0.75f;
+
 /// Whether light may be interpolated between the vertices of `mesh`: of triangles, of which few are steep. False where
 /// there are no normals.
 [[nodiscard]] bool turns_gently(const Mesh& mesh);
 
 /// Whether vertices can carry all that the effects of `plan` add to surfaces in a program with `defines`: each that adds
-/// light adds it at surface.vertex_light too, and none changes the material or dims a light by fragment.
+/// light adds it at surface.vertex_light too, and none changes the material or dims a light by fragment. With
+/// MIRROR_BY_VERTEX what is added at surface.mirrored has to be added at surface.vertex_mirrored too.
 [[nodiscard]] bool vertices_carry_insertions(const FramePlan& plan, std::span<const std::string_view> defines);
+
+/// Whether vertices carry what `material` mirrors too, where they are lit.
+[[nodiscard]] bool mirrors_by_vertex(const Material& material);
 
 /// What the vertices are told of a material whose numbers no texture varies: shaders_es/surface/surface_by_vertex.glsl.
 struct VertexLitMaterial {

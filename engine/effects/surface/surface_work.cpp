@@ -278,11 +278,14 @@ void SurfaceWork::add_by_vertex(Renderer& renderer, Draw& draw, const SurfaceTex
     const Material& material = material_of(renderer, surface);
     const bool plain = textures.used.empty() && !is_unlit(material) && !material.double_sided &&
                        material.alpha_mode == AlphaMode::opaque && !draw.changes_shape;
+    const bool rough = mirrors_by_vertex(material);
+    defines.push_back("LIT_BY_VERTEX");
+    if (rough) defines.push_back("MIRROR_BY_VERTEX");
     if (!plain || !vertices_carry_insertions(renderer.plan(), defines)) return;
     if (!turns_gently(renderer.scene().meshes[static_cast<std::size_t>(surface.mesh)])) return;
-    defines.push_back("LIT_BY_VERTEX");
     const int by_vertex = variant_of(renderer, defines, textures.used);
-    variants_[static_cast<std::size_t>(draw.variant)].by_vertex = by_vertex;
+    Variant& own = variants_[static_cast<std::size_t>(draw.variant)];
+    (rough ? own.mirror_by_vertex : own.by_vertex) = by_vertex;
     renderer.note_use(*variants_[static_cast<std::size_t>(by_vertex)].program, material.name);
     draw.lights_vertices = true;
 }
@@ -482,13 +485,20 @@ bool SurfaceWork::is_outside(const Renderer& renderer, const Draw& draw, const g
     return outside_view(draw.changes_shape ? renderer.box(draw.surface) : renderer.mesh(draw.mesh).stored_box, clip);
 }
 
+// By what the material is now: one that was changed since it was prepared, and has no such program, is lit by fragment.
+int SurfaceWork::chosen_variant(const Renderer& renderer, const Draw& draw, bool far) const {
+    if (!far) return draw.variant;
+    const Variant& own = variants_[static_cast<std::size_t>(draw.variant)];
+    const int by_vertex = mirrors_by_vertex(renderer.material(draw.material)) ? own.mirror_by_vertex : own.by_vertex;
+    return by_vertex >= 0 ? by_vertex : draw.variant;
+}
+
 void SurfaceWork::draw_one(Renderer& renderer, const View& view, Draw& draw, bool far) {
     const DrawMesh& mesh = renderer.mesh(draw.mesh);
     const glm::dmat4 eye = eye_from_stored(space_, draw.placed_at, mesh.stored);
     const glm::mat4 clip = clip_from_stored(space_, eye);
     if (is_outside(renderer, draw, clip)) return;
-    const int by_vertex = far ? variants_[static_cast<std::size_t>(draw.variant)].by_vertex : -1;
-    const int chosen = by_vertex >= 0 ? by_vertex : draw.variant;
+    const int chosen = chosen_variant(renderer, draw, far);
     Variant& variant = variants_[static_cast<std::size_t>(chosen)];
     if (current_variant_ != chosen) {
         set_variant(renderer, view, variant);

@@ -42,6 +42,7 @@ private:
         bool maps_roughness = false;
         bool has_insertions = false;  ///< of effects that may want to know the material
         int by_vertex = -1;           ///< in variants_: the same, lit by vertex; -1: there is none
+        int mirror_by_vertex = -1;    ///< and with what is mirrored, for rough materials
         int uv_mapping = -1, uv_b_mapping = -1, specular_factors = -1;
         int clip_from_local = -1, eye_from_local = -1, normal_from_local = -1, toward_eye = -1;
         int uv_range = -1, uv1_range = -1, direction_scale = -1;
@@ -121,6 +122,7 @@ private:
     void set_lights(Renderer& renderer, const View& view, Variant& variant, const Draw& draw, float scale);
     [[nodiscard]] static bool is_outside(const Renderer& renderer, const Draw& draw, const glm::mat4& clip);
     [[nodiscard]] bool as_much_to_come(const Renderer& renderer, std::size_t from) const;
+    [[nodiscard]] int chosen_variant(const Renderer& renderer, const Draw& draw, bool far) const;
     void draw_one(Renderer& renderer, const View& view, Draw& draw, bool far);
 
     const EffectCard& card_;

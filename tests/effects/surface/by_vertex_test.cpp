@@ -10,6 +10,7 @@
 #include "engine/effects/surface/surface_by_vertex.h"
 #include "engine/effects/surface/surface_model_reference.h"
 #include "engine/effects/surface/surface_reference.h"
+#include "engine/frame/cube_face.h"
 #include "perf/measure/planted_effect.h"
 #include "tests/effects/lit_square.h"
 
@@ -91,6 +92,10 @@ TEST(VerticesCarry, WhatIsBehindTheLightOrServesThemToo) {
     EXPECT_FALSE(vertices_carry_insertions(plan_with({water}), wet));
     EXPECT_TRUE(vertices_carry_insertions(plan_with({vertex, served, mirrored}), smooth));
     EXPECT_FALSE(vertices_carry_insertions(plan_with({vertex, served, mirrored}), none)) << "needs a level by pixel";
+    const std::vector<std::string_view> rough{"CONSTANT_SMOOTHNESS", "MIRROR_BY_VERTEX"};
+    const gl::Insertion vertex_mirrored{"surface.vertex_mirrored", nullptr, ""};
+    EXPECT_FALSE(vertices_carry_insertions(plan_with({vertex, served, mirrored}), rough));
+    EXPECT_TRUE(vertices_carry_insertions(plan_with({vertex, served, mirrored, vertex_mirrored}), rough));
 }
 
 TEST(VertexLit, IsTheMaterialOfTheFragmentStage) {
@@ -131,7 +136,18 @@ const EffectCard kByFragment =
 
 constexpr int kSide = 160;
 
-/// A lit ball of radius 1 with vertex colours, a sun, a lamp, and a sky that is brighter on one side.
+/// Light of three wide lamps of different colours, as a lobe as wide as that of roughness 1 sees it.
+glm::vec3 wide_light(const glm::vec3& toward) {
+    constexpr std::array<std::array<glm::vec3, 2>, 3> kLamps{{{{{0.80f, 0.36f, 0.48f}, {0.5f, 0.3f, 0.1f}}},
+                                                              {{{-0.48f, 0.60f, 0.64f}, {0.1f, 0.2f, 0.4f}}},
+                                                              {{{0.36f, -0.48f, 0.80f}, {0.2f, 0.3f, 0.1f}}}}};
+    glm::vec3 sum(0.2f);
+    for (const auto& [lamp, color] : kLamps)
+        sum += color * std::pow(std::max(glm::dot(glm::normalize(toward), lamp), 0.0f), 1.4f);
+    return sum;
+}
+
+/// A lit ball of radius 1 with vertex colours, a sun, a lamp, and a sky of three lamps.
 Scene ball(float metallic, float roughness) {
     Scene scene;
     scene.name = "ball";
@@ -150,13 +166,14 @@ Scene ball(float metallic, float roughness) {
     lamp.position = {-2.5f, 1.0f, 2.0f};
     lamp.range_m = 20.0f;
     scene.lights = {sun, lamp};
-    EnvironmentMap map{.name = "two sides", .size = 16, .levels = {}, .roughest_level = 2, .powers = {}};
+    EnvironmentMap map{.name = "three lamps", .size = 16, .levels = {}, .roughest_level = 2, .powers = {}};
     for (int level = 0; level <= 2; ++level) {
-        const auto face = static_cast<std::size_t>((16 >> level) * (16 >> level));
-        for (int side = 0; side < 6; ++side) map.levels.emplace_back();
-        map.levels.resize(static_cast<std::size_t>(level) + 1);
-        for (std::size_t side = 0; side < 6; ++side)
-            map.levels.back().insert(map.levels.back().end(), face, glm::vec3(side == 0 || side == 2 ? 0.9f : 0.2f));
+        const int size = 16 >> level;
+        std::vector<glm::vec3>& texels = map.levels.emplace_back();
+        for (int i = 0; i < 6 * size * size; ++i) {
+            const double u = (2.0 * (i % size) + 1.0) / size - 1.0, v = (2.0 * (i / size % size) + 1.0) / size - 1.0;
+            texels.push_back(wide_light(glm::vec3(face_direction(i / size / size, u, v))));
+        }
     }
     map.irradiance[0] = glm::vec3(0.3f);
     map.irradiance[3] = glm::vec3(0.2f);
@@ -181,6 +198,7 @@ protected:
     struct Drawn {
         Picture picture;
         bool has_program = false;  ///< that lights vertices
+        bool mirrors = false;      ///< there too
     };
     Drawn draw(const Scene& scene, const View& view, bool by_fragment, Tier tier = Tier::low,
                Arithmetic arithmetic = Arithmetic::full) {
@@ -191,10 +209,11 @@ protected:
         renderer.prepare(scene, plan_frame(scene, view, wishes, caps(), cards));
         renderer.draw(view);
         EXPECT_EQ(renderer.first_gl_error(), "");
-        const auto uses = renderer.program_uses();
-        return {renderer.read_display(), std::ranges::any_of(uses, [](const ProgramUse& use) {
-                    return use.defines.find("LIT_BY_VERTEX") != std::string::npos;
-                })};
+        const auto has = [uses = renderer.program_uses()](std::string_view define) {
+            return std::ranges::any_of(
+                uses, [&](const ProgramUse& use) { return use.defines.find(define) != std::string::npos; });
+        };
+        return {renderer.read_display(), has("LIT_BY_VERTEX"), has("MIRROR_BY_VERTEX")};
     }
     struct Distance {
         double mean = 0.0;  ///< [codes] over the pixels of the ball
@@ -243,6 +262,37 @@ TEST_F(LitByVertex, IsNearWhatFragmentsMakeOfIt) {
             }
         }
     }
+}
+
+TEST_F(LitByVertex, RoughOnesMirrorByVertexTooAndNearlyTheSame) {
+    EXPECT_TRUE(mirrors_by_vertex({.roughness = 0.76f}));
+    EXPECT_FALSE(mirrors_by_vertex({.roughness = 0.74f}));
+    const View view = ball_view(3.0f * kDiagonal_m);
+    for (const float roughness : {0.74f, 0.76f, 1.0f}) {
+        Scene scene = ball(1.0f, roughness);
+        scene.lights.clear();
+        scene.ambient = glm::vec3(0.0f);
+        const Drawn by_vertex = draw(scene, view, false);
+        EXPECT_EQ(by_vertex.mirrors, roughness > 0.75f);
+        const Distance distance = between(by_vertex.picture, draw(scene, view, true).picture);
+        // 0.91 and 12 were seen: three lamps, of which bands 3 and 4 hold one whole; smoother ones 4.
+        EXPECT_LT(distance.mean, 1.1) << roughness;
+        EXPECT_LT(distance.worst, 15) << roughness;
+        scene.environment.reset();  // and nothing where there is nothing to mirror
+        const Picture alone = draw(scene, view, false).picture;
+        EXPECT_EQ(alone.rgba[4 * (kSide / 2 * kSide + kSide / 2)], 0);
+    }
+}
+
+TEST_F(LitByVertex, ARoughMaterialThatBecomesSmoothIsLitByFragment) {
+    const View view = ball_view(3.0f * kDiagonal_m);
+    Scene scene = ball(1.0f, 1.0f), smooth = ball(1.0f, 0.2f);
+    Renderer renderer(gl(), caps(), {.program_cache_folder = {}, .effects = all_effects()});
+    renderer.prepare(scene, plan_frame(scene, view, {.tier = Tier::low}, caps(), all_effects()));
+    scene.materials[0].roughness = 0.2f;
+    renderer.draw(view);
+    const Picture changed = renderer.read_display();
+    EXPECT_LT(between(changed, draw(smooth, view, true).picture).mean, 1.0) << "its cube alone stays that of roughness 1";
 }
 
 TEST_F(LitByVertex, IsOfTheLowTierAndOfPlainMaterials) {

@@ -37,6 +37,11 @@ Bytes GltfBuffer::copy(std::size_t start, std::size_t size) const {
     return bytes;
 }
 
+void GltfBuffer::read(std::size_t start, std::size_t size, char* into) const {
+    if (file_ != nullptr && size > kWindow) file_->read(start_ + start, into, size);
+    else std::memcpy(into, part(start, size).data(), size);
+}
+
 void GltfBuffer::load() const {
     memory_ = copy(0, size_);
     file_.reset();

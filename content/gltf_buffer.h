@@ -30,6 +30,8 @@ public:
     /// Stays as it is until the next call of any of these.
     [[nodiscard]] std::string_view part(std::size_t start, std::size_t size) const;
     [[nodiscard]] Bytes copy(std::size_t start, std::size_t size) const;
+    /// As copy(), to where `into` has room for `size` bytes.
+    void read(std::size_t start, std::size_t size, char* into) const;
     /// Calls visit(std::string_view) for one piece after the other, each of whole elements of `element` bytes.
     template <typename Visit>
     void for_each_piece(std::size_t start, std::size_t size, std::size_t element, Visit&& visit) const {

@@ -62,6 +62,8 @@ template <typename T>
 [[nodiscard]] std::vector<std::uint32_t> read_indices(const GltfModel& gltf, int accessor);
 /// Is none of them infinite or not a number?
 [[nodiscard]] bool all_finite(std::span<const float> values);
+/// Is every index less than `count`? Up to 2^31 - 1, far above kMostVertices.
+[[nodiscard]] bool all_below(std::span<const std::uint32_t> indices, std::size_t count);
 /// All components of all elements one after the other, normalized integers as above. Not for MAT2 and MAT3 of small
 /// integers, whose columns are padded.
 [[nodiscard]] std::vector<float> read_floats(const GltfModel& gltf, int accessor);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <type_traits>
 
 #include <fmt/format.h>
 
@@ -119,6 +120,16 @@ std::optional<std::vector<T>> plain_elements(const GltfModel& gltf, const tinygl
     const Place place = place_of(gltf, accessor.bufferView, accessor.byteOffset);
     std::vector<T> result;
     result.reserve(accessor.count);
+    if constexpr (std::is_same_v<Source, T>) {
+        constexpr std::size_t kPart = (128u << 10) / sizeof(T);  // the zeros of a part are in the cache when it is read
+        while (result.size() < accessor.count) {
+            const std::size_t done = result.size();
+            result.resize(std::min(done + kPart, accessor.count));
+            const std::span<T> part = std::span(result).subspan(done);
+            place.buffer.read(place.start + done * sizeof(T), part.size_bytes(), reinterpret_cast<char*>(part.data()));
+        }
+        return result;
+    }
     bool is_aligned = true;
     place.buffer.for_each_piece(
         place.start, accessor.count * sizeof(Source), sizeof(Source), [&](std::string_view piece) {
@@ -238,9 +249,8 @@ void read_checked_indices(const GltfModel& gltf, const tinygltf::Primitive& prim
                           Mesh& mesh) {
     if (primitive.indices >= 0) {
         mesh.indices = read_indices(gltf, primitive.indices);
-        std::uint32_t largest = 0;
-        for (const std::uint32_t each : mesh.indices) largest = std::max(largest, each);
-        for (std::size_t i = 0; largest >= mesh.positions.size() && i < mesh.indices.size(); ++i) {
+        const bool is_right = all_below(mesh.indices, mesh.positions.size());
+        for (std::size_t i = 0; !is_right && i < mesh.indices.size(); ++i) {
             if (mesh.indices[i] >= mesh.positions.size()) {
                 fail(gltf, place + "/indices",
                      fmt::format("index {} of accessor {} is {} but there are {} vertices", i, primitive.indices,
@@ -349,6 +359,15 @@ bool all_finite(std::span<const float> values) {
     constexpr std::uint32_t kExponent = 0x7F800000, kOne = 0x00800000, kHighest = 0x80000000;
     std::uint32_t bits = 0;
     for (const float value : values) bits |= (std::bit_cast<std::uint32_t>(value) & kExponent) + kOne;
+    return (bits & kHighest) == 0;
+}
+
+bool all_below(std::span<const std::uint32_t> indices, std::size_t count) {
+    // The same bit is set in what is past half of the range, and in what goes below zero when taken from the last.
+    constexpr std::uint32_t kHighest = 0x80000000;
+    const std::uint32_t last = static_cast<std::uint32_t>(count) - 1;
+    std::uint32_t bits = 0;
+    for (const std::uint32_t index : indices) bits |= index | (last - index);
     return (bits & kHighest) == 0;
 }
 

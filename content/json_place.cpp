@@ -210,7 +210,8 @@ RegularFile::RegularFile(const std::filesystem::path& file, std::uint64_t most_b
 }
 
 void RegularFile::read(std::size_t start, char* into, std::size_t size) {
-    stream_.seekg(static_cast<std::streamoff>(start));
+    if (start != position_) stream_.seekg(static_cast<std::streamoff>(start));
+    position_ = start + size;
     stream_.read(into, static_cast<std::streamsize>(size));
     if (!stream_ || static_cast<std::size_t>(stream_.gcount()) != size) {
         throw Error(Fault::input, fmt::format("{}: {} cannot be read; check its permissions", owner_, name_));

@@ -105,6 +105,7 @@ private:
     std::string name_;
     std::string owner_;
     std::size_t size_ = 0;
+    std::size_t position_ = 0;  ///< of stream_, after what was read last
     std::ifstream stream_;
 };
 

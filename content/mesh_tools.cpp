@@ -62,43 +62,94 @@ glm::vec3 orthogonal(const glm::vec3& tangent, const glm::vec3& normal) {
 
 /// Tangents of a block and their normals, component by component.
 struct TangentLanes {
-    std::array<float, kBlock> x{}, y{}, z{}, w{};
-    std::array<float, kBlock> nx{}, ny{}, nz{};
-    std::array<std::uint32_t, kBlock> by_hand{};  ///< 1: what stands in the lane means nothing
+    std::array<float, kBlock> x, y, z, w;
+    std::array<float, kBlock> nx, ny, nz;
+    std::array<float, kBlock> ux, uy, uz;  ///< what the tangents become
+    std::array<float, kBlock> across;      ///< length of what is left of them across the normals [1]
+    std::array<std::uint32_t, kBlock> stays;
+    bool are_along_axes;  ///< and of length 1, as on planes, boxes and terrain: units to the bit
 
-    /// Lanes behind the last one keep what they have.
+    /// Lanes behind the last one are right.
     void fill(std::span<const glm::vec4> tangents, std::span<const glm::vec3> normals) {
-        for (std::size_t i = 0; i < tangents.size(); ++i) {
-            x[i] = tangents[i].x;
-            y[i] = tangents[i].y;
-            z[i] = tangents[i].z;
-            w[i] = tangents[i].w;
-            nx[i] = normals[i].x;
-            ny[i] = normals[i].y;
-            nz[i] = normals[i].z;
+        const std::size_t count = tangents.size();
+        const float *tangent = &tangents.front().x, *normal = &normals.front().x;
+        for (std::size_t i = 0; i < count; ++i) {
+            x[i] = tangent[4 * i];
+            y[i] = tangent[4 * i + 1];
+            z[i] = tangent[4 * i + 2];
+            w[i] = tangent[4 * i + 3];
+        }
+        for (std::size_t i = 0; i < count; ++i) {
+            nx[i] = normal[3 * i];
+            ny[i] = normal[3 * i + 1];
+            nz[i] = normal[3 * i + 2];
+        }
+        for (std::size_t i = count; i < kBlock; ++i) {
+            x[i] = ny[i] = w[i] = 1.0f;
+            y[i] = z[i] = nx[i] = nz[i] = 0.0f;
         }
     }
 
-    /// What is not right becomes orthogonal() to the bit, operation by operation, where its direction means something.
-    void repair() {
+    /// Are all of them unit, orthogonal to their normals and of a handedness? Finds which of them stay as they are.
+    bool are_right() {
+        std::uint32_t off = 0, oblique = 0;
         for (std::size_t i = 0; i < kBlock; ++i) {
-            const bool is_right = (std::abs(x[i] * x[i] + y[i] * y[i] + z[i] * z[i] - 1.0f) < kRoundingOfUnit) &
-                                  (std::abs(x[i] * nx[i] + y[i] * ny[i] + z[i] * nz[i]) < kRoundingOfUnit);
+            const float square = x[i] * x[i] + y[i] * y[i] + z[i] * z[i];
+            const float largest = std::max(std::max(std::abs(x[i]), std::abs(y[i])), std::abs(z[i]));
+            const bool is_right = (std::abs(square - 1.0f) < kRoundingOfUnit) &
+                                  (std::abs(x[i] * nx[i] + y[i] * ny[i] + z[i] * nz[i]) < kRoundingOfUnit) &
+                                  (std::abs(w[i]) == 1.0f);
+            stays[i] = is_right ? 1u : 0u;
+            off |= is_right ? 0u : 1u;
+            oblique |= (largest == 1.0f) & (square == 1.0f) ? 0u : 1u;
+        }
+        are_along_axes = oblique == 0;
+        return off == 0;
+    }
+
+    // orthogonal() to the bit, operation by operation, where its direction means something. In loops of few operations,
+    // so that the processor has several of the roots and divisions under way.
+    void find_units() {
+        if (are_along_axes) {
+            ux = x, uy = y, uz = z;
+            return;
+        }
+        for (std::size_t i = 0; i < kBlock; ++i) {
             const float largest = std::max(std::max(std::abs(x[i]), std::abs(y[i])), std::abs(z[i]));
             const float sx = x[i] / largest, sy = y[i] / largest, sz = z[i] / largest;
             const float over_length = 1.0f / std::sqrt(sx * sx + sy * sy + sz * sz);
-            const float gx = sx * over_length, gy = sy * over_length, gz = sz * over_length;
-            const float along = nx[i] * gx + ny[i] * gy + nz[i] * gz;
-            const float fx = gx - nx[i] * along, fy = gy - ny[i] * along, fz = gz - nz[i] * along;
-            const float across = std::sqrt(fx * fx + fy * fy + fz * fz);
-            const float over_across = 1.0f / across;
-            const bool stays = is_right & (std::abs(w[i]) == 1.0f);
-            by_hand[i] = stays | (across > kLeastAcross) ? 0u : 1u;
-            x[i] = stays ? x[i] : fx * over_across;
-            y[i] = stays ? y[i] : fy * over_across;
-            z[i] = stays ? z[i] : fz * over_across;
+            ux[i] = sx * over_length;
+            uy[i] = sy * over_length;
+            uz[i] = sz * over_length;
+        }
+    }
+
+    void find_across() {
+        for (std::size_t i = 0; i < kBlock; ++i) {
+            const float along = nx[i] * ux[i] + ny[i] * uy[i] + nz[i] * uz[i];
+            const float fx = ux[i] - nx[i] * along, fy = uy[i] - ny[i] * along, fz = uz[i] - nz[i] * along;
+            across[i] = std::sqrt(fx * fx + fy * fy + fz * fz);
+            ux[i] = fx;
+            uy[i] = fy;
+            uz[i] = fz;
+        }
+    }
+
+    /// False: one of those that do not stay means nothing.
+    bool repair() {
+        std::uint32_t off = 0;
+        for (std::size_t i = 0; i < kBlock; ++i) {
+            const float over_across = 1.0f / across[i];
+            const float fx = ux[i] * over_across, fy = uy[i] * over_across, fz = uz[i] * over_across;
+            const float gx = x[i], gy = y[i], gz = z[i];
+            const bool is_right = stays[i] != 0;
+            off |= is_right | (across[i] > kLeastAcross) ? 0u : 1u;
+            x[i] = is_right ? gx : fx;
+            y[i] = is_right ? gy : fy;
+            z[i] = is_right ? gz : fz;
             w[i] = w[i] < 0.0f ? -1.0f : 1.0f;
         }
+        return off == 0;
     }
 };
 
@@ -282,23 +333,32 @@ std::vector<glm::vec2> mapped(const std::vector<glm::vec2>& uv, const UvMapping&
 }
 
 void repair_tangents(Mesh& mesh) {
-    const auto is_right = [&](std::size_t i) {
-        const glm::vec4& tangent = mesh.tangents[i];
-        return is_unit(glm::vec3(tangent)) &
-               (std::abs(glm::dot(glm::vec3(tangent), mesh.normals[i])) < kRoundingOfUnit) &
-               (std::abs(tangent.w) == 1.0f);
-    };
     TangentLanes lanes;
-    for_each_block_off(mesh.tangents.size(), is_right, [&](std::size_t start, std::size_t end) {
-        lanes.fill(std::span<const glm::vec4>(mesh.tangents).subspan(start, end - start),
-                   std::span<const glm::vec3>(mesh.normals).subspan(start, end - start));
-        lanes.repair();
-        for (std::size_t i = start, lane = 0; i < end; ++i, ++lane) {
-            glm::vec3 unit(lanes.x[lane], lanes.y[lane], lanes.z[lane]);
-            if (lanes.by_hand[lane] != 0) unit = orthogonal(glm::vec3(mesh.tangents[i]), mesh.normals[i]);
-            mesh.tangents[i] = glm::vec4(unit, lanes.w[lane]);
+    for (std::size_t start = 0; start < mesh.tangents.size(); start += kBlock) {
+        const std::size_t count = std::min(kBlock, mesh.tangents.size() - start);
+        const std::span<glm::vec4> tangents = std::span(mesh.tangents).subspan(start, count);
+        const std::span<const glm::vec3> normals = std::span(mesh.normals).subspan(start, count);
+        lanes.fill(tangents, normals);
+        if (lanes.are_right()) continue;
+        lanes.find_units();
+        lanes.find_across();
+        if (!lanes.repair()) {
+            for (std::size_t i = 0; i < count; ++i) {
+                if (lanes.stays[i] != 0 || lanes.across[i] > kLeastAcross) continue;
+                const glm::vec3 unit = orthogonal(glm::vec3(tangents[i]), normals[i]);
+                lanes.x[i] = unit.x;
+                lanes.y[i] = unit.y;
+                lanes.z[i] = unit.z;
+            }
         }
-    });
+        float* tangent = &tangents.front().x;
+        for (std::size_t i = 0; i < count; ++i) {
+            tangent[4 * i] = lanes.x[i];
+            tangent[4 * i + 1] = lanes.y[i];
+            tangent[4 * i + 2] = lanes.z[i];
+            tangent[4 * i + 3] = lanes.w[i];
+        }
+    }
 }
 
 Mesh mirrored(const Mesh& mesh) {

@@ -46,6 +46,9 @@ TEST(GltfBuffer, GivesEveryPartOfItsFile) {
                 const std::size_t count = random() % (most + 1);
                 ASSERT_EQ(buffer.part(start, count), wanted.substr(start, count)) << size << " " << start;
                 ASSERT_EQ(std::string_view(buffer.copy(start, count)), wanted.substr(start, count)) << size;
+                std::string read(count, '\0');
+                buffer.read(start, count, read.data());
+                ASSERT_EQ(read, wanted.substr(start, count)) << size << " " << start;
             }
         }
     }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "content/content.h"
+#include "content/gltf_model.h"
 #include "tests/content/temporary_gltf.h"
 
 namespace halfframe::tests {
@@ -68,6 +69,20 @@ TEST_F(GltfContent, EveryIndexWidth) {
         expect_near(scene.meshes[0].positions[0], {0, 1, 0});
         expect_near(scene.meshes[0].positions[1], {0, 0, 0});
     }
+}
+
+TEST_F(GltfContent, AnIndexIsBelowTheCountOrFound) {
+    for (const std::uint32_t count : {1u, 3u, 8388608u}) {
+        for (const std::uint32_t last : {0u, count - 1, count, count + 1, 0x7FFFFFFFu, 0x80000000u, 0xFFFFFFFFu}) {
+            for (const std::size_t place : {0u, 6u, 8u}) {
+                std::vector<std::uint32_t> indices(9, 0);
+                indices[place] = last;
+                EXPECT_EQ(content::all_below(indices, count), last < count) << last << " of " << count;
+            }
+        }
+    }
+    EXPECT_FALSE(content::all_below(std::vector<std::uint32_t>{0}, 0));
+    EXPECT_TRUE(content::all_below({}, 0));
 }
 
 TEST_F(GltfContent, NoIndices) {

@@ -150,7 +150,8 @@ TEST(MeshTools, TangentsAreRepairedAsIfOneByOneToTheBit) {
     std::mt19937 random(20131107);
     const auto number = [&] { return static_cast<float>(random() % 2001) / 1000.0f - 1.0f; };
     constexpr float kInfinite = std::numeric_limits<float>::infinity(), kNone = std::nanf("");
-    for (const std::size_t count : {1u, 63u, 64u, 65u, 1000u}) {
+    for (const std::size_t count : {1u, 63u, 64u, 65u, 1000u, 200u}) {
+        const bool along_axes = count == 200u;  // whose units are not calculated
         Mesh mesh;
         std::vector<glm::vec4> wanted;
         for (std::size_t i = 0; i < count; ++i) {
@@ -166,6 +167,10 @@ TEST(MeshTools, TangentsAreRepairedAsIfOneByOneToTheBit) {
                 case 6: tangent.w = kNone; break;
                 case 7: tangent = repaired(tangent, normal); break;
                 default: break;
+            }
+            if (along_axes) {
+                tangent = glm::vec4(-0.0f, 0.0f, 1e-6f * number(), 1.0f);
+                tangent[static_cast<int>(random() % 3)] = random() % 2 == 0 ? 1.0f : -1.0f;
             }
             mesh.positions.emplace_back(0.0f);
             mesh.normals.push_back(normal);

@@ -24,7 +24,7 @@ TEST(SceneBoxes, LocalBoxCountsWhatIsDrawn) {
 }
 
 TEST(SceneBoxes, LocalBoxHoldsEveryVertexOfMeshesOfAnyLength) {
-    for (int count = 1; count < 14; ++count) {
+    for (int count = 1; count < 38; ++count) {
         for (int outermost = 0; outermost < count; ++outermost) {
             Mesh mesh;
             for (int i = 0; i < count; ++i) {

@@ -265,6 +265,8 @@ std::uint32_t Renderer::packed_texture(const Texture& first, const Texture& seco
     return texture_name;
 }
 
+std::optional<glm::vec3> Renderer::mask_of(const Texture& emission) { return textures_->mask_of(*scene_, emission); }
+
 std::vector<std::string> Renderer::notices() const {
     std::vector<std::string> all = notices_;
     if (const std::string sentence = textures_->compression(); !sentence.empty()) all.push_back(sentence);

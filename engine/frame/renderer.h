@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <unordered_set>
@@ -103,6 +104,8 @@ public:
     [[nodiscard]] std::uint32_t texture(const Texture& texture, const TextureUse& use);
     /// The same for two textures in one that are sampled alike: TextureStore::get_packed().
     [[nodiscard]] std::uint32_t packed_texture(const Texture& first, const Texture& second, const TextureUse& use);
+    /// emission_mask() of a scene texture.
+    [[nodiscard]] std::optional<glm::vec3> mask_of(const Texture& emission);
     /// Bytes of every texture on the device, mip levels included.
     [[nodiscard]] std::size_t texture_bytes() const { return texture_bytes_ + own_texture_bytes_; }
     /// Adds a texture that an effect has uploaded itself to that sum.

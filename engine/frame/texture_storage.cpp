@@ -117,6 +117,38 @@ Sum sampled(const Image& image, const Image& out, int x, int y, TexelKind kind) 
     return sum;
 }
 
+/// `color` as large as the larger of the two in each direction, with what `alpha_of` makes of `other`'s texels, 0..255.
+Image with_alpha_of(const Image& color, const Image& other, TexelKind kind, auto alpha_of) {
+    Image out{.name = color.name + "+" + other.name,
+              .width = std::max(color.width, other.width),
+              .height = std::max(color.height, other.height),
+              .srgb = color.srgb,
+              .rgba = {}};
+    out.rgba.resize(static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height) * 4);
+    std::uint8_t* to = out.rgba.data();
+    for (int y = 0; y < out.height; ++y) {
+        for (int x = 0; x < out.width; ++x, to += 4) {
+            store(sampled(color, out, x, y, TexelKind::color), to, TexelKind::color);
+            to[3] = rounded(alpha_of(sampled(other, out, x, y, kind).texel));
+        }
+    }
+    return out;
+}
+
+/// Of a colour, the channel that tells shares of it apart best.
+glm::length_t strongest_channel(const glm::vec3& color) {
+    return color.r >= color.g && color.r >= color.b ? 0 : color.g >= color.b ? 1 : 2;
+}
+
+/// In 255ths, of `whole`; nothing is a share of black.
+float share_of(float light, float whole) { return whole > 0.0f ? std::min(255.0f * light / whole, 255.0f) : 0.0f; }
+
+/// At most 2 codes of 0..255 from `code`.
+bool shows_as(float light, int code) {
+    return light >= linear_table()[static_cast<std::size_t>(std::max(code - 2, 0))] &&
+           light <= linear_table()[static_cast<std::size_t>(std::min(code + 2, 255))];
+}
+
 /// The texels of a row or column that one of a smaller one covers, and how much of each.
 struct Share {
     int first = 0;
@@ -324,20 +356,41 @@ Image packed_surface_map(const Image& normals, const Image& metallic_roughness) 
 }
 
 Image color_with_occlusion(const Image& color, const Image& occlusion) {
-    Image out{.name = color.name + "+" + occlusion.name,
-              .width = std::max(color.width, occlusion.width),
-              .height = std::max(color.height, occlusion.height),
-              .srgb = color.srgb,
-              .rgba = {}};
-    out.rgba.resize(static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height) * 4);
-    std::uint8_t* to = out.rgba.data();
-    for (int y = 0; y < out.height; ++y) {
-        for (int x = 0; x < out.width; ++x, to += 4) {
-            store(sampled(color, out, x, y, TexelKind::color), to, TexelKind::color);
-            to[3] = rounded(sampled(occlusion, out, x, y, TexelKind::data).texel[0]);
+    return with_alpha_of(color, occlusion, TexelKind::data, [](const Texel& texel) { return texel[0]; });
+}
+
+std::optional<glm::vec3> emission_mask(const Image& emission) {
+    // All channels grow with the share, so that the sum of codes finds the largest.
+    std::array<std::uint8_t, 3> brightest{};
+    int most = 0;
+    for (std::size_t i = 0; i < emission.rgba.size(); i += 4) {
+        const std::uint8_t* texel = emission.rgba.data() + i;
+        if (const int sum = texel[0] + texel[1] + texel[2]; sum > most) {
+            most = sum;
+            std::copy_n(texel, 3, brightest.begin());
         }
     }
-    return out;
+    const auto& light = linear_table();
+    const glm::vec3 mask{light[brightest[0]], light[brightest[1]], light[brightest[2]]};
+    const glm::length_t strongest = strongest_channel(mask);
+    const std::uint8_t* fitting = nullptr;  // the last texel looked at: what is on or off repeats itself
+    for (std::size_t i = 0; i < emission.rgba.size(); i += 4) {
+        const std::uint8_t* texel = emission.rgba.data() + i;
+        if (fitting != nullptr && std::equal(texel, texel + 3, fitting)) continue;
+        const float share = static_cast<float>(rounded(share_of(light[texel[strongest]], mask[strongest]))) / 255.0f;
+        for (glm::length_t c = 0; c < 3; ++c) {
+            if (!shows_as(share * mask[c], texel[c])) return std::nullopt;
+        }
+        fitting = texel;
+    }
+    return mask;
+}
+
+Image color_with_emission(const Image& color, const Image& emission, const glm::vec3& mask) {
+    const glm::length_t strongest = strongest_channel(mask);
+    return with_alpha_of(color, emission, TexelKind::color, [&](const Texel& texel) {
+        return share_of(texel[static_cast<std::size_t>(strongest)], mask[strongest]);
+    });
 }
 
 int channels_needed(const Image& image) {

@@ -29,6 +29,7 @@ struct TextureUse {
     bool decoded = false;  ///< sRGB is decoded on fetch (ES 3.0); else the shader gets the bytes as they are
     TexelKind kind = TexelKind::data;
     std::optional<float> alpha_cutoff;  ///< of a mask: levels keep the share that passes
+    bool alpha_emits = false;           ///< alpha is the share of color_with_emission()
     bool operator==(const TextureUse&) const = default;
 };
 /// Of a material's base colour: surface and shadow have to ask alike, so that the device holds it once.
@@ -58,6 +59,16 @@ void for_each_level(const Image& image, TexelKind kind, std::optional<float> alp
 /// The colours of one image with the occlusion (red) of another as their alpha, as large as the larger of the two in
 /// each direction; the smaller one is filtered, colours in linear light. Spares a fetch where alpha means nothing.
 [[nodiscard]] Image color_with_occlusion(const Image& color, const Image& occlusion);
+
+/// The one light that every texel of an emission is a share of (lamps that are on or off): linear 0..1, that of the
+/// brightest texel. None where a texel is more than 2 display codes, in any channel, from its share as alpha holds it,
+/// in steps of 1/255 of that light. That is strict, because up to a share of 1/50 these steps are several codes each,
+/// and a dark gradient would show bands. Black is its own mask.
+[[nodiscard]] std::optional<glm::vec3> emission_mask(const Image& emission);
+
+/// The colours of one image with the shares of an emission, of which `mask` is the emission_mask(), as their alpha; as
+/// large as color_with_occlusion() makes it, all filtered in linear light.
+[[nodiscard]] Image color_with_emission(const Image& color, const Image& emission, const glm::vec3& mask);
 
 /// Least channels that hold an image of data: 1 when r = g = b and alpha is 255, 4 otherwise.
 [[nodiscard]] int channels_needed(const Image& image);

@@ -53,13 +53,24 @@ void TextureStore::fit(const Scene& scene, std::vector<std::string>& notices) {
     }
 }
 
+const Image& TextureStore::image_of(const Scene& scene, const Texture& texture) const {
+    const auto index = static_cast<std::size_t>(texture.image);
+    return index < scene.images.size() ? scene.images[index] : more_images_[index - scene.images.size()];
+}
+
+std::optional<glm::vec3> TextureStore::mask_of(const Scene& scene, const Texture& emission) {
+    const auto [found, is_new] = masks_.try_emplace(emission.image);
+    if (is_new) found->second = emission_mask(image_of(scene, emission));
+    return found->second;
+}
+
 // The image of the scene itself where it is small enough, else `made`: a copy of a large one would not fit beside it.
 const Image& TextureStore::fitted_image(const Scene& scene, const Texture& texture, TexelKind kind,
                                         std::vector<std::string>& notices, Image& made) const {
     auto index = static_cast<std::size_t>(texture.image);
-    const bool is_new = index >= scene.images.size();
-    const Image& source = is_new ? more_images_[index - scene.images.size()] : scene.images[index];
-    if (is_new) index = static_cast<std::size_t>(instead_of_[index - scene.images.size()]);  // -1: past every image
+    const Image& source = image_of(scene, texture);
+    if (index >= scene.images.size())
+        index = static_cast<std::size_t>(instead_of_[index - scene.images.size()]);  // -1: past every image
     const bool needs_power_of_two =
         !caps_.npot_textures && (texture.mipmaps || texture.wrap_u != Wrap::clamp || texture.wrap_v != Wrap::clamp);
     int most = caps_.max_texture_size;
@@ -93,9 +104,16 @@ std::uint32_t TextureStore::get_packed(const Scene& scene, const Texture& first,
     const bool of_surface = use.kind == TexelKind::packed_surface;
     Image made_one, made_other;
     const Image& one = fitted_image(scene, first, of_surface ? TexelKind::normal : use.kind, notices, made_one);
-    const Image& other = fitted_image(scene, second, TexelKind::data, notices, made_other);
-    return upload(of_surface ? packed_surface_map(one, other) : color_with_occlusion(one, other), first, use,
-                  second.image);
+    const TexelKind other_kind = use.alpha_emits ? TexelKind::color : TexelKind::data;
+    const Image& other = fitted_image(scene, second, other_kind, notices, made_other);
+    const auto packed = [&] {
+        if (of_surface) return packed_surface_map(one, other);
+        if (!use.alpha_emits) return color_with_occlusion(one, other);
+        const std::optional<glm::vec3> mask = mask_of(scene, second);
+        expect(mask.has_value(), "an emission that is no mask fits no alpha");
+        return color_with_emission(one, other, *mask);
+    };
+    return upload(packed(), first, use, second.image);
 }
 
 void TextureStore::upload_compressed(const Image& image, int level, bool with_alpha, bool decoded) {

@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -88,9 +90,11 @@ public:
     std::uint32_t get(const Scene& scene, const Texture& texture, const TextureUse& use,
                       std::vector<std::string>& notices);
     /// Two textures in one, sampled as the first: packed_surface_map() of normals and metallic-roughness where `use` is
-    /// of kind packed_surface, color_with_occlusion() where it is color.
+    /// of kind packed_surface, color_with_occlusion() where it is color, color_with_emission() where its alpha emits.
     std::uint32_t get_packed(const Scene& scene, const Texture& first, const Texture& second, const TextureUse& use,
                              std::vector<std::string>& notices);
+    /// emission_mask() of an image, looked for once.
+    [[nodiscard]] std::optional<glm::vec3> mask_of(const Scene& scene, const Texture& emission);
     [[nodiscard]] std::size_t bytes() const { return bytes_; }  ///< mip levels included
     /// What compressing has cost and lost, as a sentence; empty where nothing is compressed.
     [[nodiscard]] std::string compression() const;
@@ -107,6 +111,7 @@ private:
         std::size_t bytes_plain = 0, bytes = 0;
         double worst_rms_codes = 0.0, worst_codes = 0.0;
     };
+    [[nodiscard]] const Image& image_of(const Scene& scene, const Texture& texture) const;
     [[nodiscard]] const Image& fitted_image(const Scene& scene, const Texture& texture, TexelKind kind,
                                             std::vector<std::string>& notices, Image& made) const;
     std::uint32_t upload(const Image& image, const Texture& texture, const TextureUse& use, int packed_with);
@@ -120,6 +125,7 @@ private:
     std::span<const Image> more_images_;
     std::span<const int> instead_of_;
     std::vector<Entry> entries_;
+    std::map<int, std::optional<glm::vec3>> masks_;  ///< by image, of those asked for
     std::size_t bytes_ = 0;
 };
 

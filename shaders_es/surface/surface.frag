@@ -98,8 +98,10 @@ void main() {
 #endif
 #ifdef BASE_COLOR_MAP
     base.rgb *= base_texel(base_color_map, BASE_COLOR_AT);
-#ifdef OCCLUSION_IN_BASE
+#if defined(OCCLUSION_IN_BASE)
     float base_occlusion = sample_2d(base_color_map, BASE_COLOR_AT).a;  // opaque: alpha means nothing
+#elif defined(EMISSION_IN_BASE)
+    float base_emission = sample_2d(base_color_map, BASE_COLOR_AT).a;  // the same, a share of the emission
 #else
     base.a *= sample_2d(base_color_map, BASE_COLOR_AT).a;
 #endif
@@ -108,7 +110,9 @@ void main() {
     if (base.a < emissive.w) discard;
 #endif
     vec3 emission = emissive.rgb;
-#ifdef EMISSIVE_MAP
+#if defined(EMISSION_IN_BASE) && !defined(OCCLUSION_IN_BASE) && defined(BASE_COLOR_MAP)
+    emission *= base_emission;
+#elif defined(EMISSIVE_MAP)
     emission *= color_texel(emissive_map, EMISSIVE_AT);
 #endif
 

@@ -136,6 +136,79 @@ TEST(TextureStorage, OcclusionComesWithTheColourUnchanged) {
     EXPECT_EQ(color_with_occlusion(edge, large).rgba[4 * 1], 137) << "the code of a light of 0.25";
 }
 
+using Code = std::array<int, 4>;
+
+/// Half of `on`, half of `other`.
+Image lamps(const Code& on, const Code& other) {
+    return image_of(8, 8, [&](int x, int) { return x % 2 == 0 ? other : on; });
+}
+
+TEST(TextureStorage, OneColourOnOrOffIsAMask) {
+    const Code lamp{230, 102, 26, 255}, off{0, 0, 0, 255};
+    const auto mask = emission_mask(lamps(lamp, off));
+    ASSERT_TRUE(mask.has_value());
+    EXPECT_NEAR(mask->r, 0.7913, 1e-4) << "the light of code 230";
+    EXPECT_NEAR(mask->g, 0.1329, 1e-4);
+    EXPECT_NEAR(mask->b, 0.0103, 1e-4);
+    EXPECT_EQ(emission_mask(lamps(off, lamp)), mask) << "whichever comes first";
+    EXPECT_EQ(emission_mask(lamps(lamp, {0, 0, 0, 9})), mask) << "an emission has no alpha";
+    EXPECT_EQ(emission_mask(lamps(off, off)), glm::vec3(0.0f));
+    // Of one hue: 169, 74 and 18 are the codes of half that light, 169 too at half a step of alpha.
+    EXPECT_EQ(emission_mask(lamps(lamp, {169, 74, 18, 255})), mask);
+}
+
+TEST(TextureStorage, WhatErrsByThreeCodesIsNoMask) {
+    const Code white{255, 255, 255, 255};
+    EXPECT_FALSE(emission_mask(lamps({230, 0, 0, 255}, {0, 230, 0, 255})));
+    EXPECT_FALSE(emission_mask(lamps({230, 102, 26, 255}, {169, 77, 18, 255}))) << "green is 3 codes off";
+    EXPECT_TRUE(emission_mask(lamps({230, 102, 26, 255}, {169, 75, 18, 255})));
+    // The first step of alpha has the light of code 13: codes 3 to 10 are farther than 2 from it and from black.
+    for (int code = 0; code <= 11; ++code) {
+        const bool is_mask = emission_mask(lamps(white, {code, code, code, 255})).has_value();
+        EXPECT_EQ(is_mask, code <= 2 || code == 11) << code;
+    }
+    // A gradient into the dark stays what it is; one of bright codes is held by steps of alpha.
+    EXPECT_FALSE(emission_mask(image_of(256, 1, [](int x, int) { return std::array{x, x, x, 255}; })));
+    EXPECT_TRUE(emission_mask(image_of(256, 1, [](int x, int) { return std::array{std::max(x, 80), 0, 0, 255}; })));
+}
+
+TEST(TextureStorage, AMaskedEmissionComesWithTheColourUnchanged) {
+    const Image color = image_of(8, 8, [](int x, int y) { return std::array{32 * x, 32 * y, x * y, 77}; });
+    const Image emission = lamps({230, 102, 26, 255}, {169, 74, 18, 255});
+    const Image packed = color_with_emission(color, emission, *emission_mask(emission));
+    for (std::size_t i = 0; i < packed.rgba.size(); i += 4) {
+        for (std::size_t c = 0; c < 3; ++c) EXPECT_EQ(packed.rgba[i + c], color.rgba[i + c]);
+        EXPECT_EQ(packed.rgba[i + 3], i % 8 == 0 ? 128 : 255) << "the code of half the light, at the share of half";
+    }
+    // Of another size it is filtered in light: a quarter of the way from off to on is a quarter of the light.
+    const Image edge = image_of(2, 2, [](int x, int) { return std::array{230 * x, 102 * x, 26 * x, 255}; });
+    const Image large = image_of(4, 4, [](int, int) { return std::array{9, 0, 0, 255}; });
+    EXPECT_EQ(color_with_emission(large, edge, *emission_mask(edge)).rgba[4 * 1 + 3], 64);
+    EXPECT_EQ(color_with_emission(edge, emission, *emission_mask(emission)).width, 8);
+    const Image dark = lamps({0, 0, 0, 255}, {0, 0, 0, 255});
+    EXPECT_EQ(color_with_emission(color, dark, glm::vec3(0.0f)).rgba[3], 0) << "nothing is a share of black";
+}
+
+TEST(TextureStorage, DxtKeepsWhatIsOnOrOff) {
+    std::mt19937 random(5);
+    const auto noise = [&](int, int) {
+        const auto next = [&] { return static_cast<int>(random() % 256); };
+        return std::array{next(), next(), next(), next()};
+    };
+    Image image = image_of(64, 64, noise);
+    const auto worst_alpha = [&] {
+        const Image back = decompressed(compressed(image, true));
+        int worst = 0;
+        for (std::size_t i = 3; i < image.rgba.size(); i += 4)
+            worst = std::max(worst, std::abs(back.rgba[i] - image.rgba[i]));
+        return worst;
+    };
+    // Eight shares lie between the least and the largest of a block: half of a seventh, and a rounding.
+    EXPECT_LE(worst_alpha(), 255 / 14 + 1);
+    for (std::size_t i = 3; i < image.rgba.size(); i += 4) image.rgba[i] = image.rgba[i] < 128 ? 0 : 255;
+    EXPECT_EQ(worst_alpha(), 0);
+}
+
 TEST(TextureStorage, AMapOfAnotherSizeIsFiltered) {
     const Image normals = image_of(4, 4, [](int, int) { return std::array{128, 128, 255, 255}; });
     const Image factors = image_of(2, 2, [](int x, int) { return std::array{0, 100 * x, 50, 255}; });

@@ -80,11 +80,13 @@ bool read_alike(Texture a, const UvMapping& a_uv, const Texture& b, const UvMapp
 struct Packing {
     bool roughness_with_normal = false;
     bool occlusion_with_base = false;
+    std::optional<glm::vec3> emission_with_base;  ///< its emission_mask()
 };
 
-/// Normals take metallic-roughness along. Occlusion goes into the alpha of an opaque colour, which means nothing, unless it
-/// is in the texels of metallic-roughness already and those stay alone.
-Packing packing_of(const Material& material, const std::vector<Wish>& wishes) {
+/// Normals take metallic-roughness along. Occlusion goes into the alpha of an opaque colour, which means nothing,
+/// unless it is in the texels of metallic-roughness already and those stay alone; where it does not go there, an
+/// emission that is a mask may.
+Packing packing_of(const Material& material, const std::vector<Wish>& wishes, const MaskOf& mask_of) {
     const Texture& roughness = material.metallic_roughness_texture;
     const UvMapping& roughness_uv = material.metallic_roughness_uv;
     const bool occluded = has(wishes, "OCCLUSION_MAP");
@@ -92,11 +94,18 @@ Packing packing_of(const Material& material, const std::vector<Wish>& wishes) {
                               material.occlusion_texture == roughness && material.occlusion_uv == roughness_uv;
     const bool fits_normal = has(wishes, "NORMAL_MAP") && has(wishes, "METALLIC_ROUGHNESS_MAP") &&
                              read_alike(material.normal_texture, material.normal_uv, roughness, roughness_uv);
-    const bool fits_base = occluded && has(wishes, "BASE_COLOR_MAP") && material.alpha_mode == AlphaMode::opaque &&
+    const bool has_alpha_left = has(wishes, "BASE_COLOR_MAP") && material.alpha_mode == AlphaMode::opaque;
+    const bool fits_base = occluded && has_alpha_left &&
                            read_alike(material.base_color_texture, material.base_color_uv, material.occlusion_texture,
                                       material.occlusion_uv);
-    return {.roughness_with_normal = fits_normal && (!in_roughness || fits_base),
-            .occlusion_with_base = fits_base && (!in_roughness || fits_normal)};
+    Packing packing{.roughness_with_normal = fits_normal && (!in_roughness || fits_base),
+                    .occlusion_with_base = fits_base && (!in_roughness || fits_normal),
+                    .emission_with_base = std::nullopt};
+    const bool emits_alike = mask_of && has_alpha_left && !packing.occlusion_with_base && has(wishes, "EMISSIVE_MAP") &&
+                             read_alike(material.base_color_texture, material.base_color_uv, material.emissive_texture,
+                                        material.emissive_uv);
+    if (emits_alike) packing.emission_with_base = mask_of(material.emissive_texture);
+    return packing;
 }
 
 bool same_picture(const Wish& a, const Wish& b) { return *a.texture == *b.texture && *a.uv == *b.uv; }
@@ -144,11 +153,11 @@ void choose_mappings(const Material& material, const DrawMesh& mesh, std::vector
 }  // namespace
 
 SurfaceTextures surface_textures(const Material& material, const DrawMesh& mesh, std::span<const int> spare_units,
-                                 bool low, bool water_map) {
+                                 bool low, bool water_map, const MaskOf& mask_of) {
     SurfaceTextures result;
     std::vector<Wish> wishes = wishes_of(material, mesh, water_map);
     choose_mappings(material, mesh, wishes, result);
-    const Packing packing = packing_of(material, wishes);
+    const Packing packing = packing_of(material, wishes, mask_of);
     if (packing.roughness_with_normal) {
         std::erase_if(wishes, [](const Wish& wish) { return wish.define == "METALLIC_ROUGHNESS_MAP"; });
         result.defines.push_back("PACKED_MAPS");
@@ -156,6 +165,11 @@ SurfaceTextures surface_textures(const Material& material, const DrawMesh& mesh,
     if (packing.occlusion_with_base) {
         std::erase_if(wishes, [](const Wish& wish) { return wish.define == "OCCLUSION_MAP"; });
         result.defines.push_back("OCCLUSION_IN_BASE");
+    }
+    if (packing.emission_with_base) {
+        std::erase_if(wishes, [](const Wish& wish) { return wish.define == "EMISSIVE_MAP"; });
+        result.defines.push_back("EMISSION_IN_BASE");
+        result.emission = *packing.emission_with_base;
     }
     std::vector<int> free = free_units(wishes, spare_units);
     const auto roughness = std::ranges::find(wishes, "METALLIC_ROUGHNESS_MAP", &Wish::define);
@@ -174,15 +188,34 @@ SurfaceTextures surface_textures(const Material& material, const DrawMesh& mesh,
             unit = free.front();
             free.erase(free.begin());
         }
-        SurfaceTexture used{wish.define, wish.sampler, *wish.texture, wish.srgb, {}, unit};
+        SurfaceTexture used{.define = wish.define,
+                            .sampler = wish.sampler,
+                            .texture = *wish.texture,
+                            .srgb = wish.srgb,
+                            .packed = {},
+                            .unit = unit};
         if (packing.roughness_with_normal && wish.define == "NORMAL_MAP")
             used.packed = material.metallic_roughness_texture;
         if (packing.occlusion_with_base && wish.define == "BASE_COLOR_MAP") used.packed = material.occlusion_texture;
+        if (packing.emission_with_base && wish.define == "BASE_COLOR_MAP") {
+            used.packed = material.emissive_texture;
+            used.packs_emission = true;
+        }
         result.used.push_back(used);
         result.defines.push_back(wish.define);
         if (!(*wish.uv == result.first)) result.defines.push_back(wish.second_define);
     }
     return result;
+}
+
+TextureUse use_of(const Material& material, const SurfaceTexture& texture, bool decoded) {
+    if (texture.define == "BASE_COLOR_MAP") {
+        TextureUse use = base_color_use(material, decoded);
+        use.alpha_emits = texture.packs_emission;
+        return use;
+    }
+    if (texture.define == "NORMAL_MAP") return {.kind = texture.packed ? TexelKind::packed_surface : TexelKind::normal};
+    return {.decoded = texture.srgb && decoded, .kind = texture.srgb ? TexelKind::color : TexelKind::data};
 }
 
 std::vector<std::string_view> model_defines(const Material& material) {

@@ -85,13 +85,6 @@ void sort_by_key(std::vector<Order>& order, std::vector<Order>& spare) {
     }
 }
 
-/// How the shader reads one of a material's textures.
-TextureUse use_of(const Material& material, const SurfaceTexture& texture, bool decoded) {
-    if (texture.define == "BASE_COLOR_MAP") return base_color_use(material, decoded);
-    if (texture.define == "NORMAL_MAP") return {.kind = texture.packed ? TexelKind::packed_surface : TexelKind::normal};
-    return {.decoded = texture.srgb && decoded, .kind = texture.srgb ? TexelKind::color : TexelKind::data};
-}
-
 const Material& material_of(const Renderer& renderer, const Surface& surface) {
     return renderer.material(surface.material);
 }
@@ -244,7 +237,8 @@ void SurfaceWork::add_draw(Renderer& renderer, int index) {
     renderer.add_defines(index, inserted);
     const bool water_map = std::erase(inserted, "WATER_MAP") > 0 && !low;
     const SurfaceTextures textures =
-        surface_textures(material, renderer.mesh(surface.mesh), spare_units(renderer), low, water_map);
+        surface_textures(material, renderer.mesh(surface.mesh), spare_units(renderer), low, water_map,
+                         [&](const Texture& emission) { return renderer.mask_of(emission); });
     for (const std::string& sentence : textures.left_out) renderer.add_notice(sentence);
     std::vector<std::string_view> defines = defines_of(renderer, surface, possible, draw.chooses_lights, textures);
     defines.insert(defines.end(), inserted.begin(), inserted.end());
@@ -258,7 +252,10 @@ void SurfaceWork::add_draw(Renderer& renderer, int index) {
     } else {
         draw.light_set = light_set_of(std::move(lights));
     }
-    Look look{.uv_mapping = rows_of(textures.first), .uv_b_mapping = rows_of(textures.second), .textures = {}};
+    Look look{.uv_mapping = rows_of(textures.first),
+              .uv_b_mapping = rows_of(textures.second),
+              .emission = textures.emission,
+              .textures = {}};
     const bool decoded = !low && renderer.caps().srgb_textures;
     for (const SurfaceTexture& texture : textures.used) {
         const TextureUse use = use_of(material, texture, decoded);
@@ -372,7 +369,9 @@ void SurfaceWork::set_material(Renderer& renderer, const View& view, const Varia
     gl::EntryPoints& gl = renderer.gl();
     const Material& material = renderer.material(draw.material);
     set(gl, variant.base_color, base_color_of(renderer, view, material, variant.factors < 0));
-    const glm::vec3 emissive = is_unlit(material) ? glm::vec3(0.0f) : exposed(material.emissive, view.exposure);
+    const Look& look = looks_[static_cast<std::size_t>(draw.look)];
+    const glm::vec3 emissive =
+        is_unlit(material) ? glm::vec3(0.0f) : exposed(material.emissive, view.exposure) * look.emission;
     set(gl, variant.emissive, glm::vec4(emissive, material.alpha_cutoff));
     set(gl, variant.factors, factors_of(material, variant.maps_roughness));
     set(gl, variant.specular_factors, specular_factors_of(material));
@@ -383,7 +382,6 @@ void SurfaceWork::set_material(Renderer& renderer, const View& view, const Varia
         set(gl, variant.lit_metal, lit.metal);
         set(gl, variant.lit_emission, glm::vec4(emissive, 0.0f));
     }
-    const Look& look = looks_[static_cast<std::size_t>(draw.look)];
     if (variant.uv_mapping >= 0) gl.Uniform4fv(variant.uv_mapping, 2, &look.uv_mapping[0].x);
     if (variant.uv_b_mapping >= 0) gl.Uniform4fv(variant.uv_b_mapping, 2, &look.uv_b_mapping[0].x);
     for (const TextureBinding& binding : look.textures) renderer.bind_texture(binding.unit, binding.texture);

@@ -81,6 +81,7 @@ private:
     /// What is read of a draw whose material is not that of the draw before.
     struct Look {
         UvRows uv_mapping{}, uv_b_mapping{};
+        glm::vec3 emission{1.0f};  ///< SurfaceTextures::emission
         std::vector<TextureBinding> textures;
     };
     /// What sorting reads of a draw.

@@ -329,6 +329,129 @@ TEST_F(SurfaceExtensions, OcclusionDimsAlikeFromEitherTexture) {
     }
 }
 
+/// A material that emits what image 1 shows on the colours of image 0, from one texture.
+Material masked_emitter() {
+    Material material;
+    material.metallic = 0.0f;
+    material.emissive = {0.9f, 0.8f, 0.3f};
+    material.base_color_texture = material.emissive_texture = kNearest;
+    material.emissive_texture.image = 1;
+    return material;
+}
+
+bool says(const SurfaceTextures& textures, std::string_view define) {
+    return std::ranges::find(textures.defines, define) != textures.defines.end();
+}
+
+TEST_F(SurfaceExtensions, AMaskedEmissionOfAnOpaqueColourTakesNoFetch) {
+    DrawMesh mesh;
+    mesh.has_normals = true;
+    const glm::vec3 lamp(0.5f, 0.25f, 0.0f);
+    int asked = 0;
+    const auto made = [&](const Material& material, std::optional<glm::vec3> mask) {
+        asked = 0;
+        return surface_textures(material, mesh, std::array{6, 7}, false, false, [&](const Texture& texture) {
+            EXPECT_EQ(texture, material.emissive_texture);
+            ++asked;
+            return mask;
+        });
+    };
+    const SurfaceTextures packed = made(masked_emitter(), lamp);
+    EXPECT_EQ(packed.defines, (std::vector<std::string_view>{"EMISSION_IN_BASE", "BASE_COLOR_MAP"}));
+    EXPECT_EQ(packed.used[0].packed, masked_emitter().emissive_texture);
+    EXPECT_TRUE(packed.used[0].packs_emission);
+    EXPECT_EQ(packed.emission, lamp);
+    // Of several colours it stays apart.
+    const SurfaceTextures colors = made(masked_emitter(), std::nullopt);
+    EXPECT_EQ(colors.defines, (std::vector<std::string_view>{"BASE_COLOR_MAP", "EMISSIVE_MAP"}));
+    EXPECT_FALSE(colors.used[0].packed || colors.used[0].packs_emission);
+    EXPECT_EQ(colors.emission, glm::vec3(1.0f));
+    EXPECT_EQ(asked, 1);
+    // Where it cannot be packed nobody looks at its texels.
+    std::vector<Material> others(6, masked_emitter());
+    others[0].alpha_mode = AlphaMode::mask;
+    others[1].alpha_mode = AlphaMode::blend;
+    others[2].emissive_texture.wrap_u = Wrap::clamp;
+    others[3].emissive_uv.offset.x = 0.5f;
+    others[4].base_color_texture = {};
+    others[5].occlusion_texture = kNearest;  // has the alpha
+    for (std::size_t i = 0; i < others.size(); ++i) {
+        const SurfaceTextures textures = made(others[i], lamp);
+        EXPECT_TRUE(says(textures, "EMISSIVE_MAP") && !says(textures, "EMISSION_IN_BASE")) << i;
+        EXPECT_EQ(textures.emission, glm::vec3(1.0f)) << i;
+        EXPECT_EQ(asked, 0) << i;
+    }
+    EXPECT_TRUE(says(made(others[5], lamp), "OCCLUSION_IN_BASE"));
+    others[5].occlusion_texture.wrap_u = Wrap::clamp;  // occlusion stays apart, and the alpha is left
+    EXPECT_TRUE(says(made(others[5], lamp), "EMISSION_IN_BASE"));
+    Material unlit = masked_emitter();
+    unlit.model = MaterialModel::unlit;
+    EXPECT_EQ(made(unlit, lamp).defines, std::vector<std::string_view>{"BASE_COLOR_MAP"});
+    EXPECT_EQ(asked, 0);
+}
+
+/// The same picture from the fetch of the colour as from one of its own, read a whole repetition farther.
+TEST_F(SurfaceExtensions, AMaskedEmissionShinesAlikeFromEitherTexture) {
+    const Image colors = sixteen_texels(60);
+    Image lamps = colors;
+    for (std::size_t i = 0; i < lamps.rgba.size(); i += 4) {
+        const std::array<std::uint8_t, 3> on{230, 102, 26}, dimmed{169, 74, 18}, off{0, 0, 0};
+        std::ranges::copy(i % 12 == 0   ? on
+                          : i % 12 == 4 ? dimmed
+                                        : off,
+                          lamps.rgba.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+    const std::array<std::array<Image, 2>, 3> pairs{{{colors, lamps},
+                                                     {one_texel(true, {40, 120, 200, 13}), lamps},
+                                                     {colors, one_texel(true, {230, 102, 26, 255})}}};
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        for (const On& on : kEverywhere) {
+            Scene scene = square_scene();
+            scene.images = {pairs[i][0], pairs[i][1]};
+            scene.materials[0] = masked_emitter();
+            const FloatPicture packed = scene_color(ground(), scene, square_view(), on.tier, on.arithmetic);
+            scene.materials[0].emissive_uv.offset.x = 1.0f;
+            const FloatPicture apart = scene_color(ground(), scene, square_view(), on.tier, on.arithmetic);
+            scene.materials[0].emissive = glm::vec3(0.0f);
+            const FloatPicture dark = scene_color(ground(), scene, square_view(), on.tier, on.arithmetic);
+            float worst = 0.0f, brightest = 0.0f;
+            for (std::size_t k = 0; k < packed.rgba.size(); ++k) {
+                worst = std::max(worst, std::abs(packed.rgba[k] - apart.rgba[k]));
+                brightest = std::max(brightest, std::abs(packed.rgba[k] - dark.rgba[k]));
+            }
+            EXPECT_GT(brightest, 0.5f) << on.words() << ' ' << i;
+            // 2e-3: what decodes sRGB for the texture errs by 1.0e-3 (the cubic of low, and llvmpipe), half
+            // rounds to 1.5e-3, and the CPU, which decodes the colour of a packed one, does neither.
+            EXPECT_LE(worst, 2e-3f) << on.words() << ' ' << i;
+        }
+    }
+}
+
+TEST_F(SurfaceExtensions, APackedEmissionFollowsTheMaterial) {
+    Scene scene = wide_square();
+    scene.images = {one_texel(true, {40, 120, 200, 255}), one_texel(true, {230, 102, 26, 255})};
+    scene.materials[0] = masked_emitter();
+    Renderer renderer(gl(), caps());
+    renderer.prepare(scene, plan_frame(scene, square_view(), {.tier = Tier::console}, caps(), all_effects()));
+    renderer.draw(square_view());
+    const Picture before = renderer.read_display();
+    EXPECT_TRUE(std::ranges::any_of(renderer.program_uses(), [](const ProgramUse& use) {
+        return use.draws == 1 && use.defines.starts_with("EMISSION_IN_BASE BASE_COLOR_MAP");
+    }));
+    scene.materials[0].emissive *= 0.25f;
+    renderer.draw(square_view());
+    const Picture after = renderer.read_display();
+    EXPECT_NE(before.rgba, after.rgba);
+    EXPECT_EQ(after.rgba, display(scene, square_view(), {.tier = Tier::console}).rgba);
+    // One image may be occlusion here and emission there.
+    const Material& material = scene.materials[0];
+    const auto packed = [&](bool emits) {
+        return renderer.packed_texture(material.base_color_texture, material.emissive_texture,
+                                       {.kind = TexelKind::color, .alpha_emits = emits});
+    };
+    EXPECT_NE(packed(true), packed(false));
+}
+
 TEST_F(SurfaceExtensions, NineTexturesAreNeverBound) {
     DrawMesh mesh;
     mesh.has_normals = mesh.has_tangents = true;

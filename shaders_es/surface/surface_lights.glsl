@@ -13,3 +13,8 @@
 #define LIGHT_SLOTS SURFACE_LIGHT_LIMIT
 #define COUNTED_LIGHTS
 #endif
+
+// What is mirrored leaves with the rest of the light.
+#if defined(MIRROR_BY_VERTEX) && !defined(LIT_BY_VERTEX)
+#define LIT_BY_VERTEX
+#endif

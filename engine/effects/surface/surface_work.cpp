@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <tuple>
 #include <utility>
@@ -157,35 +158,24 @@ int SurfaceWork::variant_of(Renderer& renderer, const std::vector<std::string_vi
     variant.maps_roughness = std::ranges::any_of(defines, [](std::string_view define) {
         return define == "METALLIC_ROUGHNESS_MAP" || define == "PACKED_MAPS" || define == "SPECULAR_GLOSSINESS_MAP";
     });
-    variant.uv_mapping = program.uniform_if_used("uv_mapping");
-    variant.uv_b_mapping = program.uniform_if_used("uv_b_mapping");
-    variant.specular_factors = program.uniform_if_used("specular_factors");
-    variant.uv1_range = program.uniform_if_used("uv1_range");
     variant.clip_from_local = program.uniform("clip_from_local");
-    variant.eye_from_local = program.uniform_if_used("eye_from_local");
-    variant.normal_from_local = program.uniform_if_used("normal_from_local");
-    variant.toward_eye = program.uniform_if_used("toward_eye");
-    variant.uv_range = program.uniform_if_used("uv_range");
-    variant.direction_scale = program.uniform_if_used("direction_scale");
-    variant.base_color = program.uniform_if_used("base_color");
-    variant.emissive = program.uniform_if_used("emissive");
-    variant.factors = program.uniform_if_used("factors");
-    variant.ambient = program.uniform_if_used("ambient");
-    variant.parallel_eye = program.uniform_if_used("parallel_eye");
-    variant.sun_direction = program.uniform_if_used("sun_direction");
-    variant.sun_color = program.uniform_if_used("sun_color");
-    variant.lit_albedo = program.uniform_if_used("lit_albedo");
-    variant.lit_specular = program.uniform_if_used("lit_specular");
-    variant.lit_metal = program.uniform_if_used("lit_metal");
-    variant.lit_emission = program.uniform_if_used("lit_emission");
-    variant.lit_ambient = program.uniform_if_used("lit_ambient");
-    variant.lit_sun_direction = program.uniform_if_used("lit_sun_direction");
-    variant.lit_sun_color = program.uniform_if_used("lit_sun_color");
-    variant.light_position = program.uniform_if_used("light_position");
-    variant.light_color = program.uniform_if_used("light_color");
-    variant.light_direction = program.uniform_if_used("light_direction");
-    variant.light_size = program.uniform_if_used("light_size");
-    variant.light_count = program.uniform_if_used("light_count");
+    for (const auto& [name, location] : std::initializer_list<std::pair<const char*, int*>>{
+             {"uv_mapping", &variant.uv_mapping}, {"uv_b_mapping", &variant.uv_b_mapping},
+             {"specular_factors", &variant.specular_factors}, {"uv1_range", &variant.uv1_range},
+             {"eye_from_local", &variant.eye_from_local}, {"normal_from_local", &variant.normal_from_local},
+             {"toward_eye", &variant.toward_eye}, {"uv_range", &variant.uv_range},
+             {"direction_scale", &variant.direction_scale}, {"base_color", &variant.base_color},
+             {"emissive", &variant.emissive}, {"factors", &variant.factors}, {"ambient", &variant.ambient},
+             {"parallel_eye", &variant.parallel_eye}, {"sun_direction", &variant.sun_direction},
+             {"sun_color", &variant.sun_color}, {"lit_albedo", &variant.lit_albedo},
+             {"lit_specular", &variant.lit_specular}, {"lit_metal", &variant.lit_metal},
+             {"lit_emission", &variant.lit_emission}, {"lit_ambient", &variant.lit_ambient},
+             {"lit_sun_direction", &variant.lit_sun_direction}, {"lit_sun_color", &variant.lit_sun_color},
+             {"light_position", &variant.light_position}, {"light_color", &variant.light_color},
+             {"light_direction", &variant.light_direction}, {"light_size", &variant.light_size},
+             {"light_count", &variant.light_count}}) {
+        *location = program.uniform_if_used(name);
+    }
     variant.skin = renderer.claim_skin(program);
     for (const SurfaceTexture& texture : textures) {
         if (const int location = program.uniform_if_used(texture.sampler); location >= 0)

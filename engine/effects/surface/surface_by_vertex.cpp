@@ -61,8 +61,6 @@ bool vertices_carry_insertions(const FramePlan& plan, std::span<const std::strin
     });
 }
 
-bool mirrors_by_vertex(const Material& material) { return unmapped_roughness(material) >= kRoughByVertex; }
-
 VertexLitMaterial vertex_lit(const Material& material) {
     const float power = power_of(unmapped_roughness(material));
     const float smoothness = smoothness_of_power(power);
@@ -78,6 +76,13 @@ VertexLitMaterial vertex_lit(const Material& material) {
     const float rest = 1.0f - material.metallic;
     return {glm::vec4(base * rest, smoothness), glm::vec4(dielectric * rest, power),
             glm::vec4(base * material.metallic, 0.0f)};
+}
+
+bool mirrors_by_vertex(const Material& material) {
+    if (unmapped_roughness(material) < kRoughByVertex) return false;
+    const VertexLitMaterial lit = vertex_lit(material);
+    const glm::vec3 specular = glm::vec3(lit.specular) + glm::vec3(lit.metal);
+    return std::max({specular.r, specular.g, specular.b}) <= kDullByVertex;
 }
 
 }  // namespace halfframe

@@ -200,19 +200,24 @@ private:
         const std::vector<Surface>& surfaces = renderer.scene().surfaces;
         std::vector<std::string_view> defines;
         for (std::size_t i = 0; i < surfaces.size(); ++i) {
-            const int step = step_of(unmapped_roughness(renderer.material(surfaces[i].material)));
-            if (std::ranges::find(steps_, step, &StepCube::step) != steps_.end()) continue;
+            const Material& material = renderer.material(surfaces[i].material);
+            const int step = step_of(unmapped_roughness(material));
+            const bool has_cube = std::ranges::find(steps_, step, &StepCube::step) != steps_.end();
+            // Of a metal and a dielectric of one roughness, only the latter has its mirror in vertices.
+            const bool lacks_harmonics = tier_ == Tier::low && mirrors_by_vertex(material) &&
+                                         std::ranges::find(rough_steps_, step, &RoughStep::step) == rough_steps_.end();
+            if (has_cube && !lacks_harmonics) continue;
             defines.clear();
             renderer.add_defines(static_cast<int>(i), defines);
             const auto has = [&](std::string_view word) { return std::ranges::find(defines, word) != defines.end(); };
             if (!has("CONSTANT_SMOOTHNESS") || has("WATER")) continue;
             const int level = step / ENVIRONMENT_STEPS;
             const std::vector<glm::vec3> texels = texels_of_step(map_, step);
+            if (lacks_harmonics) rough_steps_.push_back({step, harmonics_of(texels, map_.size >> level)});
+            if (has_cube) continue;
             gl::Texture cube = begin_cube(renderer, GL_LINEAR);
             renderer.count_texture_bytes(upload_texels(renderer, texels, map_.size >> level, 0));
             steps_.push_back({step, std::move(cube)});
-            if (tier_ == Tier::low && mirrors_by_vertex(renderer.material(surfaces[i].material)))
-                rough_steps_.push_back({step, harmonics_of(texels, map_.size >> level)});
         }
     }
 

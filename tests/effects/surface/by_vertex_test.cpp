@@ -284,6 +284,19 @@ TEST_F(LitByVertex, RoughOnesMirrorByVertexTooAndNearlyTheSame) {
     }
 }
 
+TEST_F(LitByVertex, AMetalOfTheSameRoughnessTakesNoReflectionAway) {
+    const View view = ball_view(3.0f * kDiagonal_m);
+    const Scene alone = ball(0.0f, 1.0f);
+    Scene both = alone;
+    Material metal = alone.materials[0];
+    metal.metallic = 1.0f;
+    both.materials.push_back(metal);
+    Surface behind{.name = "metal", .mesh = 0, .material = 1};
+    behind.world_from_local[3] = {0.0f, 0.0f, -100.0f, 1.0f};  // behind the far plane
+    both.surfaces.insert(both.surfaces.begin(), behind);
+    EXPECT_EQ(draw(both, view, false).picture.rgba, draw(alone, view, false).picture.rgba);
+}
+
 TEST_F(LitByVertex, ARoughMaterialThatBecomesSmoothIsLitByFragment) {
     const View view = ball_view(3.0f * kDiagonal_m);
     Scene scene = ball(0.0f, 1.0f), smooth = ball(0.0f, 0.2f);

@@ -8,12 +8,18 @@
 
 namespace halfframe::reference {
 
-double irradiance(const std::array<double, 3>& normal, const std::array<double, 9>& terms) {
-    const auto [x, y, z] = normal;
+namespace {
+
+double nine_harmonics(const std::array<double, 3>& toward, const std::array<double, 9>& terms) {
+    const auto [x, y, z] = toward;
     const std::array<double, 9> polynomials{1.0, y, z, x, x * y, y * z, 3.0 * z * z - 1.0, x * z, x * x - y * y};
-    double sum = 0.0;
-    for (std::size_t i = 0; i < polynomials.size(); ++i) sum += terms[i] * polynomials[i];
-    return std::max(sum, 0.0);
+    return std::inner_product(polynomials.begin(), polynomials.end(), terms.begin(), 0.0);
+}
+
+}  // namespace
+
+double irradiance(const std::array<double, 3>& normal, const std::array<double, 9>& terms) {
+    return std::max(nine_harmonics(normal, terms), 0.0);
 }
 
 double reflection_level(double smoothness, double roughest) {
@@ -41,12 +47,9 @@ double axis_bands(double cosine, double third, double fourth) {
 }
 
 double rough_reflection(const std::array<double, 3>& toward, const RoughTerms& terms) {
-    const auto [x, y, z] = toward;
-    const std::array<double, 9> polynomials{1.0, y, z, x, x * y, y * z, 3.0 * z * z - 1.0, x * z, x * x - y * y};
     const double cosine =
         std::clamp(std::inner_product(toward.begin(), toward.end(), terms.axis.begin(), 0.0), -1.0, 1.0);
-    const double sum = std::inner_product(polynomials.begin(), polynomials.end(), terms.nine.begin(), 0.0);
-    return std::max(sum + axis_bands(cosine, terms.third, terms.fourth), 0.0);
+    return std::max(nine_harmonics(toward, terms.nine) + axis_bands(cosine, terms.third, terms.fourth), 0.0);
 }
 
 namespace {

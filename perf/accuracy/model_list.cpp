@@ -51,6 +51,7 @@ std::vector<ModelEntry> model_list() {
                                       reflection_between_levels(&reference::reflection_level),
                                       reflection_of_constant_smoothness(&reference::constant_reflection_level),
                                       reflection_by_vertex(&reference::rough_reflection),
+                                      reflection_by_vertex_of_harsh_lamp(&reference::rough_reflection),
                                       diffuse_light_of_film(&reference::wet_material),
                                       mirrored_light_of_film(&reference::wet_material),
                                       radiance_of_film(&reference::wet_material),

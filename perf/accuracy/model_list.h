@@ -53,6 +53,7 @@ using LevelOfSmoothness = double (*)(double smoothness, double roughest_level);
 [[nodiscard]] ModelEntry reflection_of_constant_smoothness(LevelOfSmoothness level);
 using RoughReflection = double (*)(const std::array<double, 3>& toward, const reference::RoughTerms& terms);
 [[nodiscard]] ModelEntry reflection_by_vertex(RoughReflection reflection);
+[[nodiscard]] ModelEntry reflection_by_vertex_of_harsh_lamp(RoughReflection reflection);
 
 // The models of the surface, with what a test may plant: how a roughness becomes a power, how a smoothness brightens.
 using PowerOfRoughness = double (*)(double roughness);

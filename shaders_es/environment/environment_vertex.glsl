@@ -21,7 +21,7 @@ void place_irradiance(vec3 n) {
 uniform highp vec4 mirror_terms[12];  // 9: an axis, unit; 10 and 11: bands 3 and 4 about it
 
 // What a very rough surface mirrors of the unit ray `toward`: the cube that its fragments would read, as nine spherical
-// harmonics and what two bands more have of the brightest lamp (reflection_harmonics.h).
+// harmonics of the root of its light and what two bands more have of the brightest lamp (reflection_harmonics.h).
 //@stage vertex
 //@variant TIER_LOW CONSTANT_SMOOTHNESS LIT_BY_VERTEX MIRROR_BY_VERTEX
 //@domain toward: unit; highp vec4 mirror_terms[12]: -64..64; where dot(mirror_terms[9].xyz, mirror_terms[9].xyz) <= 1.0
@@ -32,7 +32,8 @@ vec3 rough_reflection(vec3 toward) {
     sum += mirror_terms[4].rgb * (x * y) + mirror_terms[5].rgb * (y * z) + mirror_terms[6].rgb * (3.0 * z * z - 1.0);
     sum += mirror_terms[7].rgb * (x * z) + mirror_terms[8].rgb * (x * x - y * y);
     sum += bands_about_axis(dot(toward, mirror_terms[9].xyz), mirror_terms[10].rgb, mirror_terms[11].rgb);
-    return max(sum, vec3(0.0));
+    sum = clamp(sum, 0.0, 250.0);  // its square is in half's range
+    return sum * sum;
 }
 #endif
 #else

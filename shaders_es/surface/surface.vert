@@ -135,7 +135,7 @@ void main() {
     vec3 mirrored_light = lit_ambient.rgb;
     //@insert surface.vertex_light
 #ifdef MIRROR_BY_VERTEX
-    vec3 mirrored = normalize(mirrored_ray(n, vertex_to_eye));
+    vec3 mirrored = mirrored_ray(n, normalize(vertex_to_eye));
     //@insert surface.vertex_mirrored
 #endif
 #ifdef LOCAL_LIGHTS

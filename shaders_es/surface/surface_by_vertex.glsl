@@ -48,11 +48,10 @@ vec3 mirrored_ray(vec3 n, vec3 to_eye) { return n * (2.0 * dot(n, to_eye)) - to_
 void light_vertex(vec3 n, vec3 to_eye, vec3 color, vec3 diffuse_light, vec3 mirrored_light) {
     vec3 albedo = lit_albedo.rgb * color;
     vec3 specular = min(lit_specular.rgb + lit_metal.rgb * color, vec3(1.0));
-    vec3 mirrored = mirrored_ray(n, to_eye);
     vec3 v = normalize(to_eye);
     vec3 mirror = fresnel_glossy(specular, lit_albedo.w, saturate(dot(n, v)));
 #ifndef MIRROR_BY_VERTEX
-    vertex_mirrored = mirrored;
+    vertex_mirrored = mirrored_ray(n, to_eye);
     vertex_mirror = mirror;
 #endif
     vec3 light = lit_emission.rgb + albedo * diffuse_light + mirror * mirrored_light;
@@ -62,7 +61,7 @@ void light_vertex(vec3 n, vec3 to_eye, vec3 color, vec3 diffuse_light, vec3 mirr
     light += albedo * sun_light;
     vec3 highlight = fresnel_schlick(specular, n_dot_l) * sun_light * ((lit_specular.w + 2.0) * 0.125);
 #ifdef MIRROR_BY_VERTEX
-    float root = mirrored_root(normalize(mirrored), lit_sun_direction.xyz, lit_specular.w);
+    float root = mirrored_root(mirrored_ray(n, v), lit_sun_direction.xyz, lit_specular.w);
     light += highlight * root * root;
 #else
     vertex_highlight = vec4(carried(highlight), lit_specular.w);

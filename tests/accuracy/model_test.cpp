@@ -99,9 +99,14 @@ TEST(Models, AnotherReflectionByVertexIsCaught) {
     const RoughReflection turned = [](const Toward& toward, const RoughTerms& terms) {
         return reference::rough_reflection({-toward[0], -toward[1], -toward[2]}, terms);
     };
-    for (const RoughReflection wrong : {of_two_bands, of_three_bands, turned}) {
-        const ModelAccuracy found = measure(reflection_by_vertex(wrong));
-        EXPECT_FALSE(found.violations.empty()) << found.mean << " " << found.lowest << " " << found.highest;
+    const RoughReflection not_squared = [](const Toward& toward, const RoughTerms& terms) {
+        return std::sqrt(reference::rough_reflection(toward, terms));
+    };
+    for (const RoughReflection wrong : {of_two_bands, of_three_bands, turned, not_squared}) {
+        for (const ModelEntry& entry : {reflection_by_vertex(wrong), reflection_by_vertex_of_harsh_lamp(wrong)}) {
+            const ModelAccuracy found = measure(entry);
+            EXPECT_FALSE(found.violations.empty()) << found.mean << " " << found.lowest << " " << found.highest;
+        }
     }
 }
 

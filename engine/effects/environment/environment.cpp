@@ -182,8 +182,9 @@ private:
         if (rough_steps_.empty()) return;
         const auto distance = [step](const RoughStep& one) { return std::abs(one.step - step); };
         ReflectionHarmonics terms = std::ranges::min_element(rough_steps_, {}, distance)->harmonics;
+        const float scale = std::sqrt(view_exposure_);
         for (std::size_t i = 0; i < terms.size(); ++i) {
-            if (i != kHarmonicsAxis) terms[i] *= view_exposure_;
+            if (i != kHarmonicsAxis) terms[i] *= scale;
         }
         renderer.gl().Uniform4fv(location, static_cast<GLsizei>(terms.size()), &terms[0].x);
     }
@@ -203,7 +204,7 @@ private:
             const Material& material = renderer.material(surfaces[i].material);
             const int step = step_of(unmapped_roughness(material));
             const bool has_cube = std::ranges::find(steps_, step, &StepCube::step) != steps_.end();
-            // Of a metal and a dielectric of one roughness, only the latter has its mirror in vertices.
+            // Of two materials that are rounded to one step the rougher alone may have its mirror in vertices.
             const bool lacks_harmonics = tier_ == Tier::low && mirrors_by_vertex(material) &&
                                          std::ranges::find(rough_steps_, step, &RoughStep::step) == rough_steps_.end();
             if (has_cube && !lacks_harmonics) continue;

@@ -49,7 +49,8 @@ double axis_bands(double cosine, double third, double fourth) {
 double rough_reflection(const std::array<double, 3>& toward, const RoughTerms& terms) {
     const double cosine =
         std::clamp(std::inner_product(toward.begin(), toward.end(), terms.axis.begin(), 0.0), -1.0, 1.0);
-    return std::max(nine_harmonics(toward, terms.nine) + axis_bands(cosine, terms.third, terms.fourth), 0.0);
+    const double sum = std::max(nine_harmonics(toward, terms.nine) + axis_bands(cosine, terms.third, terms.fourth), 0.0);
+    return std::pow(sum, 2.0);
 }
 
 namespace {

@@ -27,7 +27,7 @@ namespace halfframe::reference {
 [[nodiscard]] double low_reflection(double diffuse, double rough, double sharp, double smoothness);
 
 /// One channel of what vertices know of a rough reflection: the factors of the nine polynomials of irradiance(), and those of
-/// Legendre's polynomials of band 3 and 4 about a unit axis.
+/// Legendre's polynomials of band 3 and 4 about a unit axis. They add up to the root of the light.
 struct RoughTerms {
     std::array<double, 9> nine{};
     std::array<double, 3> axis{};

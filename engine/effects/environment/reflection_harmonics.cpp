@@ -41,7 +41,7 @@ std::array<double, 25> polynomials(const glm::dvec3& n) {
 
 }  // namespace
 
-ReflectionHarmonics reflection_harmonics(const std::vector<glm::vec3>& texels, int side) {
+ReflectionHarmonics reflection_harmonics(const std::vector<glm::vec3>& light, int side) {
     const auto centre = [side](int index) { return (2.0 * index + 1.0) / side - 1.0; };
     const auto visit = [&](auto&& one) {
         std::size_t at = 0;
@@ -50,26 +50,26 @@ ReflectionHarmonics reflection_harmonics(const std::vector<glm::vec3>& texels, i
                 for (int column = 0; column < side; ++column, ++at) {
                     const glm::dvec3 toward = face_direction(face, centre(column), centre(row));
                     const double length = glm::length(toward);
-                    one(toward / length, 1.0 / (length * length * length), glm::dvec3(texels[at]));
+                    one(toward / length, 1.0 / (length * length * length), glm::sqrt(glm::dvec3(light[at])));
                 }
             }
         }
     };
-    // Only what differs from the mean is projected: texels are no perfect quadrature, and one light must stay itself.
+    // Only what differs from the mean is projected: texels are no perfect quadrature, and the root of one light must stay itself.
     double weights = 0.0;
     glm::dvec3 mean(0.0);
-    const glm::dvec3 first(texels.front());
-    visit([&](const glm::dvec3&, double weight, const glm::dvec3& light) {
+    const glm::dvec3 first = glm::sqrt(glm::dvec3(light.front()));
+    visit([&](const glm::dvec3&, double weight, const glm::dvec3& root) {
         weights += weight;
-        mean += weight * (light - first);
+        mean += weight * (root - first);
     });
     mean = first + mean / weights;
     std::array<glm::dvec3, 25> sums{};
     std::array<double, 25> norms{};
-    visit([&](const glm::dvec3& n, double weight, const glm::dvec3& light) {
+    visit([&](const glm::dvec3& n, double weight, const glm::dvec3& root) {
         const std::array<double, 25> values = polynomials(n);
         for (std::size_t i = 1; i < values.size(); ++i) {
-            sums[i] += (light - mean) * (weight * values[i]);
+            sums[i] += (root - mean) * (weight * values[i]);
             norms[i] += weight * values[i] * values[i];
         }
     });

@@ -78,11 +78,6 @@ VertexLitMaterial vertex_lit(const Material& material) {
             glm::vec4(base * material.metallic, 0.0f)};
 }
 
-bool mirrors_by_vertex(const Material& material) {
-    if (unmapped_roughness(material) < kRoughByVertex) return false;
-    const VertexLitMaterial lit = vertex_lit(material);
-    const glm::vec3 specular = glm::vec3(lit.specular) + glm::vec3(lit.metal);
-    return std::max({specular.r, specular.g, specular.b}) <= kDullByVertex;
-}
+bool mirrors_by_vertex(const Material& material) { return unmapped_roughness(material) >= kRoughByVertex; }
 
 }  // namespace halfframe

@@ -24,12 +24,9 @@ inline constexpr double kSteepShare = 0.05;
 inline constexpr float kFarInDiagonals = 2.0f;
 
 /// Roughness 0..1 from which on vertices carry what a material mirrors and the sun's highlight on it too: a Blinn power of 4.3
-/// at most. The lobe about the mirrored ray is then nearly as wide as the cosine of diffuse light, and harmonics
-/// are 4 display codes off at most beside a small lamp (`halfframe accuracy environment`, "reflection, by vertex").
+/// at most. The lobe about the mirrored ray is then nearly as wide as the cosine of diffuse light, and on a white metal
+/// harmonics are 3 display codes off at most beside a small lamp (`halfframe accuracy environment`, "reflection, by vertex").
 inline constexpr float kRoughByVertex = 0.75f;
-/// And largest specular colour 0..1 of such a material: dielectrics. On a metal the rings that harmonics leave about a bright
-/// lamp show, down to black.
-inline constexpr float kDullByVertex = 0.1f;
 
 /// Whether light may be interpolated between the vertices of `mesh`: of triangles, of which few are steep. False where
 /// there are no normals.

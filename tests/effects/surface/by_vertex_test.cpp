@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "content/content.h"
 #include "content/shapes.h"
 #include "engine/effects/surface/surface_by_vertex.h"
 #include "engine/effects/surface/surface_model_reference.h"
@@ -267,7 +268,7 @@ TEST_F(LitByVertex, IsNearWhatFragmentsMakeOfIt) {
 TEST_F(LitByVertex, RoughOnesMirrorByVertexTooAndNearlyTheSame) {
     EXPECT_TRUE(mirrors_by_vertex({.metallic = 0.0f, .roughness = 0.76f}));
     EXPECT_FALSE(mirrors_by_vertex({.metallic = 0.0f, .roughness = 0.74f}));
-    EXPECT_FALSE(mirrors_by_vertex({.metallic = 1.0f, .roughness = 1.0f}));
+    EXPECT_TRUE(mirrors_by_vertex({.metallic = 1.0f, .roughness = 1.0f}));
     const View view = ball_view(3.0f * kDiagonal_m);
     for (const float roughness : {0.74f, 0.76f, 1.0f}) {
         Scene scene = ball(0.0f, roughness);
@@ -284,14 +285,34 @@ TEST_F(LitByVertex, RoughOnesMirrorByVertexTooAndNearlyTheSame) {
     }
 }
 
-TEST_F(LitByVertex, AMetalOfTheSameRoughnessTakesNoReflectionAway) {
+TEST_F(LitByVertex, TheDarkSideOfARoughMetalStaysAsDarkAsItIs) {
     const View view = ball_view(3.0f * kDiagonal_m);
-    const Scene alone = ball(0.0f, 1.0f);
+    Scene scene = ball(1.0f, 1.0f);
+    scene.lights.clear();
+    scene.ambient = glm::vec3(0.0f);
+    scene.environment = content::environment("studio", {.size = 32}).map;  // soft boxes far brighter than the floor
+    const Drawn by_vertex = draw(scene, view, false);
+    EXPECT_TRUE(by_vertex.mirrors);
+    const Picture by_fragment = draw(scene, view, true).picture;
+    int least_by_vertex = 255, least_by_fragment = 255;
+    for (std::size_t i = 1; i < by_fragment.rgba.size(); i += 4) {
+        if (by_fragment.rgba[i] == 0) continue;  // beside the ball
+        least_by_vertex = std::min(least_by_vertex, int(by_vertex.picture.rgba[i]));
+        least_by_fragment = std::min(least_by_fragment, int(by_fragment.rgba[i]));
+    }
+    EXPECT_GT(least_by_fragment, 10);
+    EXPECT_NEAR(least_by_vertex, least_by_fragment, 6);  // 18 and 15; 0 where rings of the light itself go down to black
+    EXPECT_LT(between(by_vertex.picture, by_fragment).mean, 3.0);
+}
+
+TEST_F(LitByVertex, AMaterialOfTheSameCubeTakesNoReflectionAway) {
+    const View view = ball_view(3.0f * kDiagonal_m);
+    const Scene alone = ball(0.0f, 0.751f);
     Scene both = alone;
-    Material metal = alone.materials[0];
-    metal.metallic = 1.0f;
-    both.materials.push_back(metal);
-    Surface behind{.name = "metal", .mesh = 0, .material = 1};
+    Material smoother = alone.materials[0];
+    smoother.roughness = 0.749f;  // mirrors by fragment, from the same cube
+    both.materials.push_back(smoother);
+    Surface behind{.name = "smoother", .mesh = 0, .material = 1};
     behind.world_from_local[3] = {0.0f, 0.0f, -100.0f, 1.0f};  // behind the far plane
     both.surfaces.insert(both.surfaces.begin(), behind);
     EXPECT_EQ(draw(both, view, false).picture.rgba, draw(alone, view, false).picture.rgba);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <span>
 #include <utility>
 
@@ -173,6 +174,66 @@ Stream gathered(const Stream& stream, const std::vector<std::uint32_t>& indices)
     return result;
 }
 
+/// Vectors of a block, component by component.
+struct VectorLanes {
+    std::array<float, kBlock> x, y, z;
+
+    void set(std::size_t i, const glm::vec3& vector) {
+        x[i] = vector.x;
+        y[i] = vector.y;
+        z[i] = vector.z;
+    }
+    [[nodiscard]] glm::vec3 at(std::size_t i) const { return {x[i], y[i], z[i]}; }
+
+    /// Is none zero, infinite or not a number?
+    [[nodiscard]] bool have_direction() const {
+        std::uint32_t off = 0;
+        for (std::size_t i = 0; i < kBlock; ++i) {
+            const float zero = (x[i] - x[i]) + (y[i] - y[i]) + (z[i] - z[i]);
+            const float largest = std::max(std::max(std::abs(x[i]), std::abs(y[i])), std::abs(z[i]));
+            off |= (largest > 0.0f) & (zero == 0.0f) ? 0u : 1u;
+        }
+        return off == 0;
+    }
+
+    /// unit_or() to the bit, operation by operation, of vectors that have a direction.
+    void normalize() {
+        for (std::size_t i = 0; i < kBlock; ++i) {
+            const float largest = std::max(std::max(std::abs(x[i]), std::abs(y[i])), std::abs(z[i]));
+            const float sx = x[i] / largest, sy = y[i] / largest, sz = z[i] / largest;
+            const float over_length = 1.0f / std::sqrt(sx * sx + sy * sy + sz * sz);
+            x[i] = sx * over_length;
+            y[i] = sy * over_length;
+            z[i] = sz * over_length;
+        }
+    }
+};
+
+/// The normals of the faces of `mesh`, which has three vertices for each of them: on every one. +Y without area.
+std::vector<glm::vec3> normals_of_faces(const Mesh& mesh) {
+    constexpr glm::vec3 kUp(0.0f, 1.0f, 0.0f);
+    std::vector<glm::vec3> result(mesh.positions.size());
+    VectorLanes lanes;
+    for (std::size_t start = 0; start < result.size(); start += 3 * kBlock) {
+        const std::size_t count = std::min(kBlock, (result.size() - start) / 3);
+        for (std::size_t i = 0; i < count; ++i) {
+            const auto first = static_cast<std::uint32_t>(start + 3 * i);
+            lanes.set(i, face_normal_times_area(mesh, first, first + 1, first + 2));
+        }
+        for (std::size_t i = count; i < kBlock; ++i) lanes.set(i, kUp);
+        if (lanes.have_direction()) {
+            lanes.normalize();
+        } else {
+            for (std::size_t i = 0; i < count; ++i) lanes.set(i, unit_or(lanes.at(i), kUp));
+        }
+        for (std::size_t i = 0; i < count; ++i) {
+            glm::vec3* corner = &result[start + 3 * i];
+            corner[0] = corner[1] = corner[2] = lanes.at(i);
+        }
+    }
+    return result;
+}
+
 /// The morph targets of `mesh` for its faces, three vertices each. A target's normals become what it changes the faces'
 /// normals by: right at weight 0 and, alone, at weight 1.
 std::vector<MorphTarget> flat_targets(const Mesh& mesh, const std::vector<std::uint32_t>& list,
@@ -208,16 +269,16 @@ std::size_t drawn_vertices(const Mesh& mesh) {
 std::vector<std::uint32_t> triangle_list(const Mesh& mesh) {
     expect(has_faces(mesh.primitive), "a triangle list was asked of a mesh of points or lines");
     const std::size_t count = drawn_vertices(mesh);
+    std::vector<std::uint32_t> result;
+    if (mesh.primitive == Primitive::triangles) {
+        result = mesh.indices;
+        result.resize(count / 3 * 3);
+        if (mesh.indices.empty()) std::iota(result.begin(), result.end(), 0u);
+        return result;
+    }
     const auto index = [&](std::size_t i) {
         return mesh.indices.empty() ? static_cast<std::uint32_t>(i) : mesh.indices[i];
     };
-    std::vector<std::uint32_t> result;
-    if (mesh.primitive == Primitive::triangles) {
-        for (std::size_t i = 0; i < count / 3 * 3; ++i) {
-            result.push_back(index(i));
-        }
-        return result;
-    }
     for (std::size_t i = 2; i < count; ++i) {
         const bool fan = mesh.primitive == Primitive::triangle_fan;
         std::uint32_t first = fan ? index(0) : index(i - 2);
@@ -240,12 +301,7 @@ Mesh flat_shaded(const Mesh& mesh) {
     result.colors = gathered(mesh.colors, list);
     result.joints = gathered(mesh.joints, list);
     result.weights = gathered(mesh.weights, list);
-    result.normals.reserve(list.size());
-    for (std::size_t i = 0; i + 2 < list.size(); i += 3) {
-        const glm::vec3 normal =
-            unit_or(face_normal_times_area(mesh, list[i], list[i + 1], list[i + 2]), glm::vec3(0.0f, 1.0f, 0.0f));
-        result.normals.insert(result.normals.end(), 3, normal);
-    }
+    result.normals = normals_of_faces(result);
     result.morph_targets = flat_targets(mesh, list, result.normals);
     return result;
 }

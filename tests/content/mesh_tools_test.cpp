@@ -64,6 +64,54 @@ TEST(MeshTools, FlatShadedOfADegenerateFaceIsUnit) {
     EXPECT_EQ(flat_shaded(mesh).normals.at(0), glm::vec3(0, 1, 0));
 }
 
+/// The normal that flat_shaded() gives a face, written out.
+glm::vec3 flat_normal(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+    const glm::vec3 twice_area(glm::clamp(glm::cross(b - a, c - a), -1e30, 1e30));
+    const float largest = std::max({std::abs(twice_area.x), std::abs(twice_area.y), std::abs(twice_area.z)});
+    const bool has_area =
+        std::isfinite(twice_area.x) && std::isfinite(twice_area.y) && std::isfinite(twice_area.z) && largest > 0.0f;
+    return has_area ? glm::normalize(twice_area / largest) : glm::vec3(0.0f, 1.0f, 0.0f);
+}
+
+TEST(MeshTools, FlatNormalsAreMadeAsIfOneByOneToTheBit) {
+    std::mt19937 random(20131107);
+    const auto number = [&] { return static_cast<float>(random() % 2001) / 1000.0f - 1.0f; };
+    constexpr float kInfinite = std::numeric_limits<float>::infinity(), kNone = std::nanf("");
+    for (const std::size_t faces : {1u, 63u, 64u, 65u, 1000u, 200u}) {
+        const bool are_easy = faces == 200u;  // no block has one without area
+        Mesh mesh;
+        for (std::size_t i = 0; i < 3 * faces; ++i) {
+            glm::vec3 place(number(), number(), number());
+            const bool is_odd = !are_easy && i % 3 == 2 && random() % 8 == 0;
+            switch (is_odd ? random() % 6 : 6) {
+                case 0: place = mesh.positions[i - 1]; break;  // without area
+                case 1: place.x = kInfinite; break;
+                case 2: place.y = kNone; break;
+                case 3: place *= 1e38f; break;
+                case 4: place = mesh.positions[i - 1] * (1.0f + 1e-7f); break;
+                case 5: place *= 1e-42f; break;
+                default: break;
+            }
+            mesh.positions.push_back(place);
+            mesh.indices.push_back(static_cast<std::uint32_t>((i + 2) % (3 * faces)));
+        }
+        for (const bool is_indexed : {true, false}) {
+            if (!is_indexed) mesh.indices.clear();
+            const Mesh flat = flat_shaded(mesh);
+            ASSERT_EQ(flat.normals.size(), 3 * faces);
+            for (std::size_t i = 0; i < 3 * faces; ++i) {
+                const auto place = [&](std::size_t corner) {
+                    const std::size_t at = i / 3 * 3 + corner;
+                    return glm::dvec3(mesh.positions[is_indexed ? mesh.indices[at] : at]);
+                };
+                const glm::vec3 wanted = flat_normal(place(0), place(1), place(2));
+                EXPECT_EQ(std::memcmp(&flat.normals[i], &wanted, sizeof wanted), 0)
+                    << i << " of " << faces << " faces: " << flat.normals[i].x << " for " << wanted.x;
+            }
+        }
+    }
+}
+
 TEST(MeshTools, TangentsFollowUAndKnowMirroredUv) {
     Mesh mesh = square(Primitive::triangles, {0, 1, 2, 0, 2, 3});
     mesh.normals.assign(4, {0, 0, 1});

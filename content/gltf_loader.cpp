@@ -306,7 +306,9 @@ private:
         for (const auto& [name, accessor] : source.attributes) {
             key += fmt::format(" {} {}", name, accessor);
         }
-        if (uv.of_normal_map && !source.attributes.contains("TANGENT")) {
+        if (uv.of_normal_map && source.attributes.contains("TANGENT")) {
+            key += " with tangents";
+        } else if (uv.of_normal_map) {
             const UvMapping& map = *uv.of_normal_map;  // tangents are made for it
             key += fmt::format(" {} {} {} {} {}", map.set, map.scale.x, map.scale.y, map.rotation_rad, map.offset.x);
         }

@@ -74,7 +74,7 @@ inline constexpr int kLastUvSet = 1;
 /// What a primitive needs from its material.
 struct MaterialUv {
     std::array<bool, kLastUvSet + 1> reads{};  ///< which TEXCOORD sets
-    std::optional<UvMapping> of_normal_map;    ///< none: no tangents are needed
+    std::optional<UvMapping> of_normal_map;    ///< none: tangents are neither kept nor made
 };
 
 /// Vertices and indices read so far, against the caps.

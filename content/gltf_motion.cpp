@@ -141,7 +141,10 @@ void read_targets(const GltfModel& gltf, const tinygltf::Primitive& primitive, c
         read.name = fmt::format("target {}", i);
         read.positions = read_offsets(gltf, target, target_place, "POSITION");
         if (!mesh.normals.empty()) read.normals = read_offsets(gltf, target, target_place, "NORMAL");
-        if (!mesh.tangents.empty()) read.tangents = read_offsets(gltf, target, target_place, "TANGENT");
+        if (primitive.attributes.contains("TANGENT") && !mesh.normals.empty()) {
+            std::vector<glm::vec3> tangents = read_offsets(gltf, target, target_place, "TANGENT");
+            if (!mesh.tangents.empty()) read.tangents = std::move(tangents);  // else only refused if they are wrong
+        }
         mesh.morph_targets.push_back(std::move(read));
     }
 }

@@ -110,6 +110,13 @@ void for_each_element(const GltfModel& gltf, int index, Visit&& visit) {
     }
 }
 
+/// Refuses what read_elements() refuses, of elements that nobody asks for.
+void expect_readable(const GltfModel& gltf, int index) {
+    const tinygltf::Accessor& accessor = gltf.model.accessors.at(static_cast<std::size_t>(index));
+    if (accessor.bufferView >= 0) gltf.expect_data(static_cast<std::size_t>(accessor.bufferView));
+    if (accessor.sparse.isSparse) for_each_element(gltf, index, [](std::size_t, const unsigned char*) {});
+}
+
 /// The elements of a buffer that lie one after the other as Source, converted one by one: the common case, in which
 /// nothing has to be written before it is read. Nothing: they do not lie so.
 template <typename Source, typename T>
@@ -223,7 +230,8 @@ void read_streams(const GltfModel& gltf, const tinygltf::Primitive& primitive, c
         mesh.normals = read_elements<glm::vec3>(gltf, normals);
     }
     if (const int tangents = attribute(primitive, "TANGENT"); tangents >= 0 && !mesh.normals.empty()) {
-        mesh.tangents = read_elements<glm::vec4>(gltf, tangents);
+        if (needs.of_normal_map) mesh.tangents = read_elements<glm::vec4>(gltf, tangents);
+        else expect_readable(gltf, tangents);
     }
     for (std::size_t set = 0; set < needs.reads.size(); ++set) {
         const std::string uv_name = fmt::format("TEXCOORD_{}", set);

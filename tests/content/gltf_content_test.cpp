@@ -328,6 +328,29 @@ TEST_F(GltfContent, ANormalMapBringsTangents) {
     EXPECT_EQ(mesh.tangents[0].w, 1.0f);
 }
 
+TEST_F(GltfContent, TangentsOfTheFileAreReadForANormalMapOnly) {
+    json document = textured_document();
+    std::string normals, tangents;
+    append(normals, std::vector<float>{0, 0, 1, 0, 0, 1, 0, 0, 1});
+    append(tangents, std::vector<float>{0, 1, 0, -1, 0, 1, 0, -1, 0, 1, 0, -1});
+    json& attributes = document["meshes"][0]["primitives"][0]["attributes"];
+    attributes["NORMAL"] = add_accessor(document, add_view(document, normals), 5126, "VEC3", 3);
+    attributes["TANGENT"] = add_accessor(document, add_view(document, tangents), 5126, "VEC4", 3);
+    document["materials"].push_back({{"name", "without a normal map"}});
+    document["meshes"].push_back(document["meshes"][0]);
+    document["meshes"][1]["primitives"][0]["material"] = 1;
+    document["nodes"].push_back({{"mesh", 1}});
+    document["scenes"][0]["nodes"] = {0, 1};
+    const Scene scene = load(document);
+    ASSERT_EQ(scene.surfaces.size(), 2u);
+    const auto mesh_of = [&](std::size_t i) {
+        return scene.meshes.at(static_cast<std::size_t>(scene.surfaces[i].mesh));
+    };
+    EXPECT_EQ(mesh_of(0).tangents, std::vector<glm::vec4>(3, {0, 1, 0, -1}));
+    EXPECT_TRUE(mesh_of(1).tangents.empty());
+    EXPECT_EQ(mesh_of(1).normals.size(), 3u);
+}
+
 TEST_F(GltfContent, SixteenBitImagesKeepTheirUpperBytes) {
     json document = textured_document();
     document["images"][0]["uri"] = "data:image/png;base64," + base64(sixteen_bit_png());

@@ -175,6 +175,19 @@ const std::vector<BrokenDocument>& faults() {
                                             {"values", {{"bufferView", 1}}}};
          },
          "/accessors/1/sparse/indices", "element 3 of 3"},
+        {"sparse_index_of_tangents_without_a_normal_map",  // which nothing reads
+         [](json& d) {
+             std::string indices, tangents;
+             append(indices, std::vector<std::uint8_t>{3});
+             append(tangents, std::vector<float>{1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1});
+             const std::size_t index_view = add_view(d, indices), tangent_view = add_view(d, tangents);
+             primitive(d)["attributes"]["NORMAL"] = 1;
+             primitive(d)["attributes"]["TANGENT"] = add_accessor(d, tangent_view, 5126, "VEC4", 3);
+             d["accessors"][2]["sparse"] = {{"count", 1},
+                                            {"indices", {{"bufferView", index_view}, {"componentType", 5121}}},
+                                            {"values", {{"bufferView", tangent_view}}}};
+         },
+         "/accessors/2/sparse/indices", "element 3 of 3"},
         {"view_buffer", [](json& d) { d["bufferViews"][0]["buffer"] = 1; }, "/bufferViews/0/buffer",
          "number 1 of 1 buffers"},
         {"view_too_long", [](json& d) { d["bufferViews"][1]["byteLength"] = 37; }, "/bufferViews/1",

@@ -232,6 +232,13 @@ const std::vector<Fault>& faults() {
         {"target_of_other_length", morphing_document,
          [](json& d) { primitive(d)["targets"][0]["POSITION"] = accessor(d, std::vector<float>(6), 5126, "VEC3", 2); },
          "/meshes/0/primitives/0/targets/0/POSITION", "2 elements"},
+        {"tangent_of_a_target_without_a_normal_map", morphing_document,  // which nothing reads
+         [](json& d) {
+             primitive(d)["attributes"]["NORMAL"] = primitive(d)["attributes"]["POSITION"];
+             primitive(d)["attributes"]["TANGENT"] = accessor(d, std::vector<float>(12, 1.0f), 5126, "VEC4", 3);
+             primitive(d)["targets"][0]["TANGENT"] = accessor(d, std::vector<float>(9, std::nanf("")), 5126, "VEC3", 3);
+         },
+         "/meshes/0/primitives/0/targets/0/TANGENT", "not a number"},
         {"weights_of_other_length", morphing_document, [](json& d) { d["meshes"][0]["weights"] = {1}; },
          "/meshes/0/weights", "2"},
     };

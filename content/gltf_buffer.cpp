@@ -38,6 +38,7 @@ Bytes GltfBuffer::copy(std::size_t start, std::size_t size) const {
 }
 
 void GltfBuffer::read(std::size_t start, std::size_t size, char* into) const {
+    if (size == 0) return;  // what has no bytes may have no memory
     if (file_ != nullptr && size > kWindow) file_->read(start_ + start, into, size);
     else std::memcpy(into, part(start, size).data(), size);
 }

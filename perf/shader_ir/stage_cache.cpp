@@ -8,8 +8,8 @@
 #include <iterator>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
+#include "engine/cache_file.h"
 #include "engine/gl/fingerprint.h"
 #include "perf/shader_ir/compile.h"
 
@@ -88,19 +88,11 @@ void StageCache::keep(const std::string& key, const Kept& kept) const {
     if (folder_.empty()) return;
     const std::uint64_t sum = gl::fingerprint(bytes_of(kept.optimised), gl::fingerprint(bytes_of(kept.inlined)));
     const std::array<std::uint64_t, 3> header{kept.inlined.size(), kept.optimised.size(), sum};
-    const fs::path beside = folder_ / fmt::format("{}.{}", key, ::getpid());
-    std::error_code failed;
-    {
-        std::ofstream stream(beside, std::ios::binary);
-        stream << kMagic << std::string_view(reinterpret_cast<const char*>(header.data()), sizeof header)
-               << bytes_of(kept.inlined) << bytes_of(kept.optimised);
-        if (!stream.flush()) {
-            fs::remove(beside, failed);
-            return;
-        }
-    }
-    fs::rename(beside, folder_ / key, failed);
-    if (failed) fs::remove(beside, failed);
+    std::string content(kMagic);
+    content += std::string_view(reinterpret_cast<const char*>(header.data()), sizeof header);
+    content += bytes_of(kept.inlined);
+    content += bytes_of(kept.optimised);
+    static_cast<void>(write_cache_file(folder_ / key, content));  // else it is compiled again
 }
 
 }  // namespace halfframe::shader_ir

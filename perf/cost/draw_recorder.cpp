@@ -80,6 +80,7 @@ struct DrawRecorder::Functions {
         HALFFRAME_LOAD(BeginQuery)
         HALFFRAME_LOAD(EndQuery)
         HALFFRAME_LOAD(GetQueryObjectui64v)
+        HALFFRAME_LOAD(Flush)
 #undef HALFFRAME_LOAD
     }
 
@@ -141,6 +142,7 @@ struct DrawRecorder::Functions {
     void (*BeginQuery)(GLenum, GLuint);
     void (*EndQuery)(GLenum);
     void (*GetQueryObjectui64v)(GLuint, GLenum, GLuint64*);
+    void (*Flush)();
 };
 
 /// What the engine gets in the place of the real functions.
@@ -352,11 +354,20 @@ void DrawRecorder::read_textures(RecordedDraw& draw) {
     gl_->ActiveTexture(active);
 }
 
-std::uint32_t DrawRecorder::query() {
-    GLuint made = 0;
-    gl_->GenQueries(1, &made);
-    gl_->BeginQuery(kSamplesPassed, made);
-    return made;
+/// llvmpipe (Mesa 22.3) writes the start and the end of a query into a list of every tile. Where its memory for lists,
+/// 36 MiB, is used up in the middle of that, it draws what it has, and counts for the query what was counted before in
+/// those tiles that have no start yet, or have an end already; the answer may then be asked for before the last tile
+/// has ended, and the query be deleted under it. So the lists are handed over before either: both stand in lists that
+/// are empty.
+std::uint32_t DrawRecorder::count(const std::function<void()>& submit) {
+    GLuint query = 0;
+    gl_->GenQueries(1, &query);
+    gl_->Flush();
+    gl_->BeginQuery(kSamplesPassed, query);
+    submit();
+    gl_->Flush();
+    gl_->EndQuery(kSamplesPassed);
+    return query;
 }
 
 /// The depth attachment of the bound framebuffer, kept aside while a draw that must leave no trace writes to it.
@@ -418,15 +429,11 @@ void DrawRecorder::draw(RecordedDraw& draw, const std::function<void()>& submit)
         gl_->UseProgram(keeping);
         copy_uniforms(draw.program, keeping);
         gl_->ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-        queries.shaded = query();
-        submit();
-        gl_->EndQuery(kSamplesPassed);
+        queries.shaded = count(submit);
         gl_->ColorMask(mask[0], mask[1], mask[2], mask[3]);
         gl_->UseProgram(draw.program);
     }
-    queries.written = query();
-    submit();
-    gl_->EndQuery(kSamplesPassed);
+    queries.written = count(submit);
 }
 
 std::uint32_t DrawRecorder::keeping_program(std::uint32_t program) {

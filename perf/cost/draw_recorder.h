@@ -71,7 +71,7 @@ private:
     RecordedDraw& begin_draw(std::uint32_t mode, int count);
     void read_state(RecordedDraw& draw);
     void read_textures(RecordedDraw& draw);
-    std::uint32_t query();
+    std::uint32_t count(const std::function<void()>& submit);  ///< name of the query
     void draw(RecordedDraw& draw, const std::function<void()>& submit);
     /// The same vertex stage with a fragment stage that writes nothing and keeps everything; 0: the program keeps all
     /// its fragments as it is.

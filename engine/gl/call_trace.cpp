@@ -251,7 +251,7 @@ NameSpace labelled_space(std::int64_t identifier) {
     }
 }
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
     std::string out = "\"";
     for (const char letter : text) {
         if (letter == '"' || letter == '\\') {
@@ -271,7 +271,7 @@ std::string enumerant(Call call, std::string_view parameter, std::int64_t value)
         constexpr std::array kModes = {"GL_POINTS",    "GL_LINES",          "GL_LINE_LOOP",   "GL_LINE_STRIP",
                                        "GL_TRIANGLES", "GL_TRIANGLE_STRIP", "GL_TRIANGLE_FAN"};
         if (value >= 0 && value < static_cast<std::int64_t>(kModes.size())) {
-            return quoted(kModes[static_cast<std::size_t>(value)]);
+            return in_quotes(kModes[static_cast<std::size_t>(value)]);
         }
     }
     if (value == 0) return call == Call::BlendFuncSeparate ? "\"GL_ZERO\"" : "\"GL_NONE\"";
@@ -279,7 +279,7 @@ std::string enumerant(Call call, std::string_view parameter, std::int64_t value)
     if (call == Call::ActiveTexture) return fmt::format("\"GL_TEXTURE{}\"", value - GL_TEXTURE0);
     const auto* found =
         std::find_if(kEnumerants.begin(), kEnumerants.end(), [&](const Enumerant& one) { return one.value == value; });
-    return found != kEnumerants.end() ? quoted(found->name) : fmt::format("\"0x{:04X}\"", value);
+    return found != kEnumerants.end() ? in_quotes(found->name) : fmt::format("\"0x{:04X}\"", value);
 }
 
 std::string bits(Call call, std::int64_t value) {
@@ -294,7 +294,7 @@ std::string bits(Call call, std::int64_t value) {
         if (!out.empty()) out += '|';
         out += name;
     }
-    return quoted(out);
+    return in_quotes(out);
 }
 
 /// The shortest text that reads back as the same float; JSON has no infinities, so those are strings.
@@ -366,7 +366,7 @@ struct Line {
         const auto* begin = static_cast<const char*>(data);
         const bool counted = call == Call::ObjectLabel || call == Call::PushDebugGroup;
         const std::int64_t length = counted ? integer("length") : -1;
-        return quoted(length >= 0 ? std::string_view(begin, static_cast<std::size_t>(length))
+        return in_quotes(length >= 0 ? std::string_view(begin, static_cast<std::size_t>(length))
                                   : std::string_view(begin));
     }
 
@@ -454,7 +454,7 @@ void CallTrace::record(int call_index, std::string_view pass, std::span<const Tr
                        const TraceValue* result, int row_alignment) {
     const auto call = static_cast<Call>(call_index);
     const Line line{call, parameters_of(call_index), values, row_alignment, names_};
-    std::string out = fmt::format("[{},\"{}\",[", quoted(pass), call_name(call_index));
+    std::string out = fmt::format("[{},\"{}\",[", in_quotes(pass), call_name(call_index));
     for (std::size_t i = 0; i < values.size(); ++i) {
         if (i > 0) out += ',';
         out += line.parameters[i].type == "GLsync" ? sync_index(values[i].pointer) : line.argument(i);

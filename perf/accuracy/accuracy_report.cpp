@@ -144,11 +144,11 @@ std::string accuracy_text(const AccuracyReport& report) {
     std::string text =
         report.here.missing.empty() ? "here: " + report.here.driver : "here: nothing was drawn: " + report.here.missing;
     text += "\n";
-    if (!report.functions.empty()) text += "\n" + functions_text(report.functions);
-    if (!report.models.empty()) text += "\n" + models_text(report.models);
-    if (!report.storage.empty()) text += "\n" + storage_text(report.storage);
-    if (!report.depth.empty()) text += "\n" + depth_text(report.depth);
-    if (!report.frames.empty()) text += "\n" + frames_text(report.frames);
+    if (!report.functions.empty()) text += '\n' + functions_text(report.functions);
+    if (!report.models.empty()) text += '\n' + models_text(report.models);
+    if (!report.storage.empty()) text += '\n' + storage_text(report.storage);
+    if (!report.depth.empty()) text += '\n' + depth_text(report.depth);
+    if (!report.frames.empty()) text += '\n' + frames_text(report.frames);
     const std::vector<std::string> violations = report.violations();
     if (!violations.empty()) text += "\n";
     for (const std::string& violation : violations) text += "exceeded: " + violation + "\n";

@@ -136,11 +136,11 @@ Json rules_sarif() {
 
 std::string check_text(const Report& report) {
     std::string text = report.materials.empty() ? "" : material_table(report);
-    if (report.storage.vertex_bytes_before > 0) text += "\n" + storage_table(report.storage);
+    if (report.storage.vertex_bytes_before > 0) text += '\n' + storage_table(report.storage);
     for (const Finding& finding : report.findings) {
         const Rule& broken = rule(finding.rule);
         const std::string where = finding.place.empty() ? "" : finding.place + ", ";
-        text += "\n" + perf::wrapped(fmt::format("{} {}: {}{}: {}", name(finding.level), broken.name, where,
+        text += '\n' + perf::wrapped(fmt::format("{} {}: {}{}: {}", name(finding.level), broken.name, where,
                                                  finding.thing, finding.words),
                                      112, 4);
         text += "\n    " + perf::wrapped(broken.remedy, 108, 4) + "\n";

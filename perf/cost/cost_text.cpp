@@ -138,8 +138,8 @@ std::string cost_text(const FrameCost& cost, const perf::BudgetTable* budget) {
     shown.arithmetic = cost.arithmetic;
     std::string text = fmt::format("cost of {}: {}\n", cost.title(), perf::configuration_text(shown));
     text += fmt::format("model version {}, {}\n\n", kModelVersion, cost.compiler) + counts_text(cost);
-    for (const DeviceCost& device : cost.devices) text += "\n" + device_text(device, cost.arithmetic);
-    text += "\n" + effects_text(cost) + "\n";
+    for (const DeviceCost& device : cost.devices) text += '\n' + device_text(device, cost.arithmetic);
+    text += '\n' + effects_text(cost) + "\n";
     if (budget != nullptr) text += budget_text(*budget) + "\n";
     text += paragraph(
         "Milliseconds. Band: every slot filled, to a third of the slots empty. Branches: all fragments take the short "

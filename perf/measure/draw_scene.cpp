@@ -31,7 +31,7 @@ FloatPicture read_linear(Renderer& renderer, std::vector<std::string>& notices) 
     const FramePlan& plan = renderer.plan();
     const int scene_color = plan.target_index("scene_color");
     if (scene_color < 0 || holds_display_values(plan.storage)) {
-        notices.push_back("this plan has no linear target, so the .exr holds display values");
+        notices.emplace_back("this plan has no linear target, so the .exr holds display values");
         return renderer.read_target(scene_color < 0 ? plan.display : scene_color);
     }
     FloatPicture picture = renderer.read_target(scene_color);

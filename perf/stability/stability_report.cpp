@@ -202,7 +202,7 @@ std::vector<std::string> StabilityReport::violations() const {
 std::string stability_text(const StabilityReport& report) {
     std::string text =
         report.missing.empty() ? "on " + report.driver + "\n" : "nothing was drawn: " + report.missing + "\n";
-    text += "\n" + functions_text(report) + exemptions_text(report) + exhibit_text(report.exhibit) + "\n";
+    text += '\n' + functions_text(report) + exemptions_text(report) + exhibit_text(report.exhibit) + "\n";
     const std::vector<std::string> violations = report.violations();
     if (!violations.empty()) text += "Does not hold\n";
     for (const std::string& one : violations) text += "  " + perf::wrapped(one, 118, 4) + "\n";

@@ -29,7 +29,9 @@ void link_all(harness::Ground& ground, const std::vector<NamedProgram>& programs
     }
     EXPECT_GT(cache.statistics().compiled, 0);
     // Only what has more uniforms than varyings keeps them: a handful of variants with every light and every extension.
-    if (ground.caps.gathers_uniforms) EXPECT_LT(plain, programs.size() / 10);
+    if (ground.caps.gathers_uniforms) {
+        EXPECT_LT(plain, programs.size() / 10);
+    }
     EXPECT_EQ(ground.gl.GetError(), 0u);
 }
 

@@ -219,8 +219,10 @@ TEST(ShadersEs, EveryFunctionHoldsInAllModelsAndOnAContextAndTheLedgerKnowsItsWo
             (tally.arithmetic.ends_with("here") ? drawn : inputs) += tally.lanes;
             lost += tally.not_finite;
         }
-        if (drawing) EXPECT_EQ(tally_of(one, "mediump here").lanes, tally_of(one, "half").lanes);
-        if (drawing) EXPECT_EQ(tally_of(one, "highp here").lanes, tally_of(one, "half").lanes);
+        if (drawing) {
+            EXPECT_EQ(tally_of(one, "mediump here").lanes, tally_of(one, "half").lanes);
+            EXPECT_EQ(tally_of(one, "highp here").lanes, tally_of(one, "half").lanes);
+        }
     }
     std::cout << "inputs " << inputs << " in models, " << drawn << " on a context, NaN or inf " << lost << "\n";
     EXPECT_GT(inputs, 4'000'000u);

@@ -2,7 +2,7 @@
 // bringing it to the device costs, and how time and memory grow with size. Prints medians and ratios, judges nothing,
 // is no test.
 //
-// Files are made by the exporter in a folder of its own, so they are in the page cache. Loads and bare reads take
+// Files are those named, or made by the exporter in a folder of its own, so they are in the page cache. Loads and bare reads take
 // turns. Times are those of the process, whatever else the machine does. Memory is what the process held at most above
 // what it held before, in a child that loads once.
 #include <malloc.h>
@@ -26,6 +26,7 @@
 #include <nlohmann/json.hpp>
 
 #include "content/content.h"
+#include "engine/error.h"
 #include "engine/frame/frame_plan.h"
 #include "engine/frame/renderer.h"
 #include "perf/report/text_table.h"
@@ -41,6 +42,8 @@ double process_ms() {
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
     return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
 }
+
+constexpr double kMiB = 1048576.0;
 
 double median(std::vector<double> values) {
     std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2));
@@ -69,7 +72,7 @@ std::size_t read_bare(const fs::path& file) {
             is_image[index] = true;
             const auto& view = document["bufferViews"][index];
             pixels =
-                stbi_load_from_memory(reinterpret_cast<const stbi_uc*>(binary + view["byteOffset"].get<std::size_t>()),
+                stbi_load_from_memory(reinterpret_cast<const stbi_uc*>(binary + view.value("byteOffset", std::size_t{0})),
                                       view["byteLength"].get<int>(), &width, &height, &channels, 4);
         }
         if (pixels == nullptr) continue;
@@ -79,7 +82,7 @@ std::size_t read_bare(const fs::path& file) {
     for (std::size_t i = 0; i < is_image.size(); ++i) {
         if (is_image[i]) continue;
         const auto& view = document["bufferViews"][i];
-        const char* start = binary + view["byteOffset"].get<std::size_t>();
+        const char* start = binary + view.value("byteOffset", std::size_t{0});
         const std::vector<char> copy(start, start + view["byteLength"].get<std::size_t>());
         sum += copy.empty() ? 0u : static_cast<unsigned char>(copy.front());
     }
@@ -250,11 +253,7 @@ double prepare_ms(Scene scene) {
     return process_ms() - start;
 }
 
-void add_row(perf::TextTable& table, const fs::path& folder, const std::string& name, const Scene& scene, int rounds) {
-    const fs::path file = folder / "file.glb";
-    const std::string bytes = with_compressed_images(content::gltf_binary(scene), scene, folder);
-    std::ofstream(file, std::ios::binary) << bytes;
-    double mib = 0.0;
+void add_row(perf::TextTable& table, const fs::path& file, const std::string& name, double mib, int rounds) {
     const double memory = peak_mib(file);
     std::vector<double> load_ms, bare_ms;
     std::size_t kept = 0;  // so that nothing is optimised away
@@ -268,26 +267,55 @@ void add_row(perf::TextTable& table, const fs::path& folder, const std::string& 
     }
     const double prepare = prepare_ms(content::load_gltf(file));
     const double load = median(load_ms), bare = median(bare_ms);
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-        mib += static_cast<double>(entry.file_size()) / 1048576.0;
-        fs::remove(entry.path());
+    table.add_row({kept > 0 ? name : name + " (nothing)", fmt::format("{:.1f}", mib),
+                   fmt::format("{:.2f}", load), fmt::format("{:.2f}", bare), fmt::format("{:.2f}", load / bare),
+                   fmt::format("{:.0f}", memory), fmt::format("{:.0f}", prepare)});
+}
+
+void add_row(perf::TextTable& table, const fs::path& folder, const std::string& name, const Scene& scene, int rounds) {
+    const fs::path file = folder / "file.glb";
+    const std::string bytes = with_compressed_images(content::gltf_binary(scene), scene, folder);
+    std::ofstream(file, std::ios::binary) << bytes;
+    double mib = 0.0;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+        mib += static_cast<double>(entry.file_size()) / kMiB;
+    add_row(table, file, name, mib, rounds);
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) fs::remove(entry.path());
+}
+
+perf::TextTable headings() {
+    using perf::Align;
+    return perf::TextTable({{"a file of", Align::left},
+                            {"MiB", Align::right},
+                            {"load ms", Align::right},
+                            {"bare ms", Align::right},
+                            {"ratio", Align::right},
+                            {"peak MiB", Align::right},
+                            {"prepare ms", Align::right}});
+}
+
+void print(const perf::TextTable& table, int rounds) {
+    fmt::print(
+        "medians of {} loads; bare: the file read, its JSON parsed, its images decoded, its buffers copied; "
+        "prepare: once, until the first frame\n\n{}\n",
+        rounds, table.text());
+}
+
+void run_files(const std::vector<std::string>& files, int rounds) {
+    perf::TextTable table = headings();
+    for (const std::string& file : files) {
+        std::string magic(4, '\0');
+        std::ifstream(file, std::ios::binary).read(magic.data(), 4);
+        if (magic != "glTF") throw Error(Fault::input, file + ": this is no GLB file; give .glb files");
+        add_row(table, file, fs::path(file).filename().string(), static_cast<double>(fs::file_size(file)) / kMiB, rounds);
     }
-    table.add_row({kept > 0 ? name : name + " (nothing)", fmt::format("{:.1f}", mib), fmt::format("{:.1f}", load),
-                   fmt::format("{:.1f}", bare), fmt::format("{:.2f}", load / bare), fmt::format("{:.0f}", memory),
-                   fmt::format("{:.0f}", prepare)});
+    print(table, rounds);
 }
 
 void run(int rounds, bool small) {
     const fs::path folder = fs::temp_directory_path() / fmt::format("halfframe_load_bench_{}", getpid());
     fs::create_directories(folder);
-    using perf::Align;
-    perf::TextTable table({{"a file of", Align::left},
-                           {"MiB", Align::right},
-                           {"load ms", Align::right},
-                           {"bare ms", Align::right},
-                           {"ratio", Align::right},
-                           {"peak MiB", Align::right},
-                           {"prepare ms", Align::right}});
+    perf::TextTable table = headings();
     const int less = small ? 8 : 1;
     for (const int side : {512, 1024, 2048}) {
         const int here = side / less;
@@ -307,10 +335,7 @@ void run(int rounds, bool small) {
         add_row(table, folder, "the built-in street, without surroundings", street, rounds);
     }
     fs::remove_all(folder);
-    fmt::print(
-        "medians of {} loads; bare: the file read, its JSON parsed, its images decoded, its buffers copied; "
-        "prepare: once, until the first frame\n\n{}\n",
-        rounds, table.text());
+    print(table, rounds);
 }
 
 }  // namespace
@@ -322,9 +347,12 @@ int main(int argc, char** argv) {
     CLI::App app{"What loading a glTF file costs, and how that grows with its size"};
     app.add_option("--rounds", rounds, "Loads of every file")->check(CLI::Range(1, 1000));
     app.add_flag("--small", small, "Everything an eighth as large, and no street");
+    std::vector<std::string> files;
+    app.add_option("FILE.glb", files, "These files, and not those made here")->check(CLI::ExistingFile);
     CLI11_PARSE(app, argc, argv);
     try {
-        halfframe::bench::run(rounds, small);
+        if (files.empty()) halfframe::bench::run(rounds, small);
+        else halfframe::bench::run_files(files, rounds);
         return 0;
     } catch (const std::exception& error) {
         fmt::print(stderr, "halfframe_load_bench: {}\n", error.what());

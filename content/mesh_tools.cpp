@@ -61,11 +61,46 @@ glm::vec3 orthogonal(const glm::vec3& tangent, const glm::vec3& normal) {
     return glm::length(flat) > kLeastAcross ? glm::normalize(flat) : some_tangent(normal);
 }
 
+/// Vectors of a block, component by component.
+struct VectorLanes {
+    std::array<float, kBlock> x, y, z;
+
+    void set(std::size_t i, const glm::vec3& vector) {
+        x[i] = vector.x;
+        y[i] = vector.y;
+        z[i] = vector.z;
+    }
+    [[nodiscard]] glm::vec3 at(std::size_t i) const { return {x[i], y[i], z[i]}; }
+
+    /// Is none zero, infinite or not a number?
+    [[nodiscard]] bool have_direction() const {
+        std::uint32_t off = 0;
+        for (std::size_t i = 0; i < kBlock; ++i) {
+            const float zero = (x[i] - x[i]) + (y[i] - y[i]) + (z[i] - z[i]);
+            const float largest = std::max(std::max(std::abs(x[i]), std::abs(y[i])), std::abs(z[i]));
+            off |= (largest > 0.0f) & (zero == 0.0f) ? 0u : 1u;
+        }
+        return off == 0;
+    }
+
+    /// unit_or() to the bit, operation by operation, of vectors that have a direction.
+    void normalize() {
+        for (std::size_t i = 0; i < kBlock; ++i) {
+            const float largest = std::max(std::max(std::abs(x[i]), std::abs(y[i])), std::abs(z[i]));
+            const float sx = x[i] / largest, sy = y[i] / largest, sz = z[i] / largest;
+            const float over_length = 1.0f / std::sqrt(sx * sx + sy * sy + sz * sz);
+            x[i] = sx * over_length;
+            y[i] = sy * over_length;
+            z[i] = sz * over_length;
+        }
+    }
+};
+
 /// Tangents of a block and their normals, component by component.
 struct TangentLanes {
     std::array<float, kBlock> x, y, z, w;
     std::array<float, kBlock> nx, ny, nz;
-    std::array<float, kBlock> ux, uy, uz;  ///< what the tangents become
+    VectorLanes unit;                      ///< what the tangents become
     std::array<float, kBlock> across;      ///< length of what is left of them across the normals [1]
     std::array<std::uint32_t, kBlock> stays;
     bool are_along_axes;  ///< and of length 1, as on planes, boxes and terrain: units to the bit
@@ -111,28 +146,18 @@ struct TangentLanes {
     // orthogonal() to the bit, operation by operation, where its direction means something. In loops of few operations,
     // so that the processor has several of the roots and divisions under way.
     void find_units() {
-        if (are_along_axes) {
-            ux = x, uy = y, uz = z;
-            return;
-        }
-        for (std::size_t i = 0; i < kBlock; ++i) {
-            const float largest = std::max(std::max(std::abs(x[i]), std::abs(y[i])), std::abs(z[i]));
-            const float sx = x[i] / largest, sy = y[i] / largest, sz = z[i] / largest;
-            const float over_length = 1.0f / std::sqrt(sx * sx + sy * sy + sz * sz);
-            ux[i] = sx * over_length;
-            uy[i] = sy * over_length;
-            uz[i] = sz * over_length;
-        }
+        unit = {x, y, z};
+        if (!are_along_axes) unit.normalize();
     }
 
     void find_across() {
         for (std::size_t i = 0; i < kBlock; ++i) {
-            const float along = nx[i] * ux[i] + ny[i] * uy[i] + nz[i] * uz[i];
-            const float fx = ux[i] - nx[i] * along, fy = uy[i] - ny[i] * along, fz = uz[i] - nz[i] * along;
+            const float along = nx[i] * unit.x[i] + ny[i] * unit.y[i] + nz[i] * unit.z[i];
+            const float fx = unit.x[i] - nx[i] * along, fy = unit.y[i] - ny[i] * along, fz = unit.z[i] - nz[i] * along;
             across[i] = std::sqrt(fx * fx + fy * fy + fz * fz);
-            ux[i] = fx;
-            uy[i] = fy;
-            uz[i] = fz;
+            unit.x[i] = fx;
+            unit.y[i] = fy;
+            unit.z[i] = fz;
         }
     }
 
@@ -141,7 +166,7 @@ struct TangentLanes {
         std::uint32_t off = 0;
         for (std::size_t i = 0; i < kBlock; ++i) {
             const float over_across = 1.0f / across[i];
-            const float fx = ux[i] * over_across, fy = uy[i] * over_across, fz = uz[i] * over_across;
+            const float fx = unit.x[i] * over_across, fy = unit.y[i] * over_across, fz = unit.z[i] * over_across;
             const float gx = x[i], gy = y[i], gz = z[i];
             const bool is_right = stays[i] != 0;
             off |= is_right | (across[i] > kLeastAcross) ? 0u : 1u;
@@ -173,41 +198,6 @@ Stream gathered(const Stream& stream, const std::vector<std::uint32_t>& indices)
     }
     return result;
 }
-
-/// Vectors of a block, component by component.
-struct VectorLanes {
-    std::array<float, kBlock> x, y, z;
-
-    void set(std::size_t i, const glm::vec3& vector) {
-        x[i] = vector.x;
-        y[i] = vector.y;
-        z[i] = vector.z;
-    }
-    [[nodiscard]] glm::vec3 at(std::size_t i) const { return {x[i], y[i], z[i]}; }
-
-    /// Is none zero, infinite or not a number?
-    [[nodiscard]] bool have_direction() const {
-        std::uint32_t off = 0;
-        for (std::size_t i = 0; i < kBlock; ++i) {
-            const float zero = (x[i] - x[i]) + (y[i] - y[i]) + (z[i] - z[i]);
-            const float largest = std::max(std::max(std::abs(x[i]), std::abs(y[i])), std::abs(z[i]));
-            off |= (largest > 0.0f) & (zero == 0.0f) ? 0u : 1u;
-        }
-        return off == 0;
-    }
-
-    /// unit_or() to the bit, operation by operation, of vectors that have a direction.
-    void normalize() {
-        for (std::size_t i = 0; i < kBlock; ++i) {
-            const float largest = std::max(std::max(std::abs(x[i]), std::abs(y[i])), std::abs(z[i]));
-            const float sx = x[i] / largest, sy = y[i] / largest, sz = z[i] / largest;
-            const float over_length = 1.0f / std::sqrt(sx * sx + sy * sy + sz * sz);
-            x[i] = sx * over_length;
-            y[i] = sy * over_length;
-            z[i] = sz * over_length;
-        }
-    }
-};
 
 /// The normals of the faces of `mesh`, which has three vertices for each of them: on every one. +Y without area.
 std::vector<glm::vec3> normals_of_faces(const Mesh& mesh) {

@@ -181,14 +181,13 @@ ModelEntry reflection_by_vertex(RoughReflection reflection) {
 }
 
 ModelEntry reflection_by_vertex_of_harsh_lamp(RoughReflection reflection) {
-    return {.effect = "environment",
-            .model = "reflection, by vertex, a lamp of 200 skies",
-            .truth = "the lobe of that roughness itself, on a sky of 0.3 with a lamp of 60, 20 degrees wide",
-            .unit = "codes",
-            .axes = {"lamp beside the mirror direction [deg]", "roughness"},
-            .errors = [reflection] { return rough_errors(reflection, kHarshLamp); },
-            .largest = {11.7, "behind the lamp at roughness 0.75: 11.1; harmonics of the light, not of its root, 15.1"},
-            .mean = {2.85, "2.71; without band 4 5.3, of the light 2.9"}};
+    ModelEntry entry = reflection_by_vertex(reflection);
+    entry.model = "reflection, by vertex, a lamp of 200 skies";
+    entry.truth = "the lobe of that roughness itself, on a sky of 0.3 with a lamp of 60, 20 degrees wide";
+    entry.errors = [reflection] { return rough_errors(reflection, kHarshLamp); };
+    entry.largest = {11.7, "behind the lamp at roughness 0.75: 11.1; without band 4 17.6, without bands 3 and 4 30.3"};
+    entry.mean = {2.85, "2.71; without band 4 5.3, without both 6.1"};
+    return entry;
 }
 
 ModelEntry reflection_of_integral(GlossyFresnel fresnel) {

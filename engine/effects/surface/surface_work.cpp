@@ -67,25 +67,6 @@ std::vector<int> spare_units(const Renderer& renderer) {
     return units;
 }
 
-using Order = SurfaceWork::Order;
-
-/// By the key, stable: byte by byte from the last, those that are alike in all left out. Ten thousand draws take a
-/// tenth of the time of a sort that compares.
-void sort_by_key(std::vector<Order>& order, std::vector<Order>& spare) {
-    std::array<std::array<std::uint32_t, 256>, 8> count{};
-    for (const Order& one : order) {
-        for (std::size_t byte = 0; byte < 8; ++byte) ++count[byte][one.key >> (8 * byte) & 255];
-    }
-    for (std::size_t byte = 0; byte < 8; ++byte) {
-        auto& places = count[byte];
-        if (order.empty() || places[order.front().key >> (8 * byte) & 255] == order.size()) continue;
-        std::uint32_t next = 0;
-        for (std::uint32_t& place : places) next += std::exchange(place, next);
-        for (const Order& one : order) spare[places[one.key >> (8 * byte) & 255]++] = one;
-        order.swap(spare);
-    }
-}
-
 const Material& material_of(const Renderer& renderer, const Surface& surface) {
     return renderer.material(surface.material);
 }
@@ -296,10 +277,12 @@ SurfaceWork::SurfaceWork(Renderer& renderer, const EffectCard& card, SurfacePart
                                         most_left_out_ + SURFACE_LIGHT_LIMIT, most_crowded_, SURFACE_LIGHT_LIMIT,
                                         most_left_out_, others));
     }
-    depth_is_there_ = std::ranges::any_of(renderer.plan().passes, [](const Pass& pass) {
+    const bool depth_is_there = std::ranges::any_of(renderer.plan().passes, [](const Pass& pass) {
         return pass.effect != "surface" && pass.writes_depth && pass.order == PassOrder::depth;
     });
     places_.resize(draws_.size());
+    if (part == SurfacePart::transparent) order_by_ = OrderBy::far_first;
+    else if (depth_is_there) order_by_ = OrderBy::state;
     if (part == SurfacePart::opaque) rank_states();
     order_.resize(draws_.size());
     sorting_.resize(draws_.size());
@@ -307,7 +290,7 @@ SurfaceWork::SurfaceWork(Renderer& renderer, const EffectCard& card, SurfacePart
 
 // Fewest changes of program, then of material, then (where depth is there already) of mesh.
 void SurfaceWork::rank_states() {
-    const auto mesh = [&](const Draw& draw) { return depth_is_there_ ? draw.mesh : 0; };
+    const auto mesh = [&](const Draw& draw) { return order_by_ == OrderBy::state ? draw.mesh : 0; };
     const auto before = [&](const Draw& a, const Draw& b) {
         return std::tuple(a.variant, a.material, mesh(a)) < std::tuple(b.variant, b.material, mesh(b));
     };
@@ -526,7 +509,7 @@ void SurfaceWork::place_all(const Renderer& renderer) {
     }
 }
 
-void SurfaceWork::place(const Renderer& renderer, Draw& draw, Place& place) {
+void SurfaceWork::place(const Renderer& renderer, Draw& draw, DrawPlace& place) {
     const Surface& surface = renderer.scene().surfaces[static_cast<std::size_t>(draw.surface)];
     const auto same = [](const glm::mat4& a,
                          const glm::mat4& b) {  // by bits: a zero that turned negative costs nothing
@@ -538,23 +521,10 @@ void SurfaceWork::place(const Renderer& renderer, Draw& draw, Place& place) {
     draw.normal_from_local = glm::mat3(normal_from_local(surface.world_from_local));
     const Box box = world_box(renderer.box(draw.surface), surface.world_from_local);
     place.centre = (box.low + box.high) * 0.5f;
+    place.half = (box.high - box.low) * 0.5f;
     if (!draw.lights_vertices) return;
     const glm::vec3 diagonal = (box.high - box.low) * kFarInDiagonals;
     place.far_squared = glm::dot(diagonal, diagonal);
-}
-
-// One number orders a draw: state before distance for opaque ones, distance alone for those that blend. The bits of a
-// float that is not negative grow with it. Equal numbers keep the order of draws_, so that they never swap.
-void SurfaceWork::sort(const View& view) {
-    for (std::size_t i = 0; i < draws_.size(); ++i) {
-        const glm::vec3 from_eye = places_[i].centre - view.eye;
-        const float squared = glm::dot(from_eye, from_eye);
-        const auto distance = std::bit_cast<std::uint32_t>(squared);
-        std::uint64_t key = std::uint64_t{places_[i].state} << 32 | (depth_is_there_ ? 0 : distance);
-        if (part_ == SurfacePart::transparent) key = ~distance;
-        order_[i] = {key, static_cast<std::uint32_t>(i), squared >= places_[i].far_squared};
-    }
-    sort_by_key(order_, sorting_);
 }
 
 // Looks no further than it must: all looks of a frame together pass each draw at most once.
@@ -583,7 +553,7 @@ void SurfaceWork::draw(Renderer& renderer, const View& view, int) {
     space_ = view_space(view);
     for (LightSet& set : light_sets_) set.scale = length_scale_of(renderer, view, set);
     place_all(renderer);
-    sort(view);
+    order_draws(places_, view, order_by_, order_, sorting_);
     bool may_flush = true;
     for (std::size_t i = 0; i < order_.size(); ++i) {
         will_read(&draws_[order_[std::min(i + kAhead, order_.size() - 1)].draw], sizeof(Draw));

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/effects/surface/draw_order.h"
 #include "engine/effects/surface/surface_textures.h"
 #include "engine/frame/camera_space.h"
 #include "engine/frame/effect_card.h"
@@ -26,13 +27,6 @@ public:
     /// `card` gives tier and shaders: surface's own, or that of another effect with the same shaders.
     SurfaceWork(Renderer& renderer, const EffectCard& card, SurfacePart part);
     void draw(Renderer& renderer, const View& view, int phase) override;
-
-    /// Where a draw stands in a frame: smaller keys first.
-    struct Order {
-        std::uint64_t key = 0;
-        std::uint32_t draw = 0;
-        bool far = false;  ///< enough for the program that lights vertices
-    };
 
 private:
     /// A program and where its uniforms are; -1: this variant does not use it.
@@ -84,12 +78,6 @@ private:
         glm::vec3 emission{1.0f};  ///< SurfaceTextures::emission
         std::vector<TextureBinding> textures;
     };
-    /// What sorting reads of a draw.
-    struct Place {
-        glm::vec3 centre{0.0f};   ///< of its box [m], world
-        std::uint32_t state = 0;  ///< rank among the states that draws_ stands by: equal ones need no change between
-        float far_squared = std::numeric_limits<float>::infinity();  ///< [m^2] from the eye: vertices are lit from there on
-    };
     /// The lights of one object or many, and what their lengths are multiplied with in this frame.
     struct LightSet {
         bool own = false;  ///< of one object that chooses anew in every frame
@@ -108,8 +96,7 @@ private:
                        std::vector<std::string_view> defines);
     void rank_states();
     void place_all(const Renderer& renderer);
-    void place(const Renderer& renderer, Draw& draw, Place& place);
-    void sort(const View& view);
+    void place(const Renderer& renderer, Draw& draw, DrawPlace& place);
     void set_variant(Renderer& renderer, const View& view, Variant& variant);
     void set_material(Renderer& renderer, const View& view, const Variant& variant, const Draw& draw);
     [[nodiscard]] glm::vec4 base_color_of(const Renderer& renderer, const View& view, const Material& material,
@@ -135,11 +122,11 @@ private:
     std::vector<Variant> variants_;
     std::vector<LightSet> light_sets_;
     std::vector<Draw> draws_;
-    std::vector<Place> places_;  ///< one for each of draws_
+    std::vector<DrawPlace> places_;  ///< one for each of draws_
     std::vector<Look> looks_;
-    std::vector<Order> order_;     ///< of draws_ in this frame; sized while preparing
-    std::vector<Order> sorting_;   ///< as large: what sorting needs
-    bool depth_is_there_ = false;  ///< a prepass has drawn it: near before far saves nothing
+    std::vector<DrawOrder> order_;    ///< of draws_ in this frame; sized while preparing
+    std::vector<DrawOrder> sorting_;  ///< as large: what sorting needs
+    OrderBy order_by_ = OrderBy::large_first;
     ViewSpace space_;              ///< of the frame being drawn
     int current_variant_ = -1;
     int current_material_ = -1;

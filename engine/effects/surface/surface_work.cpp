@@ -313,7 +313,6 @@ void SurfaceWork::set_variant(Renderer& renderer, const View& view, Variant& var
     variant.told_light_set = -1;
     variant.told_uv_range = variant.told_uv1_range = variant.told_direction_scale = variant.told_toward_eye =
         glm::vec4(unknown);
-    renderer.use(*variant.program);
     set(gl, variant.ambient, glm::vec4(exposed(renderer.scene().ambient, view.exposure), 0.0f));
     set(gl, variant.lit_ambient, glm::vec4(exposed(renderer.scene().ambient, view.exposure), 0.0f));
     set(gl, variant.parallel_eye, view.orthographic ? glm::vec4(direction_to_eye(view), 0.0f) : kNotParallel);
@@ -472,7 +471,8 @@ void SurfaceWork::draw_one(Renderer& renderer, const View& view, Draw& draw, boo
     const int chosen = chosen_variant(renderer, draw, far);
     Variant& variant = variants_[static_cast<std::size_t>(chosen)];
     if (current_variant_ != chosen) {
-        set_variant(renderer, view, variant);
+        renderer.use(*variant.program);
+        if (!std::exchange(variant.told_frame, true)) set_variant(renderer, view, variant);
         current_variant_ = chosen;
         current_material_ = -1;
     }
@@ -551,6 +551,7 @@ void SurfaceWork::draw(Renderer& renderer, const View& view, int) {
         renderer.set_depth(true, false, GL_LEQUAL);
     }
     space_ = view_space(view);
+    for (Variant& variant : variants_) variant.told_frame = false;
     for (LightSet& set : light_sets_) set.scale = length_scale_of(renderer, view, set);
     place_all(renderer);
     order_draws(places_, view, order_by_, order_, sorting_);

@@ -44,7 +44,8 @@ private:
         int sun_direction = -1, sun_color = -1;
         int lit_albedo = -1, lit_specular = -1, lit_metal = -1, lit_emission = -1, lit_ambient = -1;
         int lit_sun_direction = -1, lit_sun_color = -1;
-        // What the program was last told, since it became current.
+        // What the program was last told, in this frame.
+        bool told_frame = false;  ///< what is the same for all that it draws
         glm::vec4 told_uv_range{0.0f}, told_uv1_range{0.0f}, told_direction_scale{0.0f}, told_toward_eye{0.0f};
         int told_light_set = -1;
         float told_light_scale = 0.0f;

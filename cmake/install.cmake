@@ -15,6 +15,7 @@ set(HALFFRAME_PUBLIC_HEADERS
   engine/frame/draw_state.h
   engine/frame/early_flush.h
   engine/frame/effect_card.h
+  engine/frame/facing.h
   engine/frame/frame_plan.h
   engine/frame/image.h
   engine/frame/motion.h

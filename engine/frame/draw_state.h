@@ -54,6 +54,7 @@ public:
     void enable_attributes(unsigned wanted);  ///< bits by location; all others go off
     void set_depth(bool test, bool write, std::uint32_t function);
     void set_cull(bool on);
+    [[nodiscard]] bool culls() const { return now_.cull == 1; }  ///< as it was last set
     void set_blend(Blend blend);
     void set_color_mask(bool on);
 

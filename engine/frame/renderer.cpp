@@ -67,8 +67,9 @@ void Renderer::prepare(const Scene& scene, const FramePlan& plan) {
     targets_->allocate(plan_);
     make_full_screen_triangle();
     const auto storages = plan_vertex_storage(scene, plan_.vertices, notices_);
+    const std::vector<bool> orders = meshes_to_order(scene);
     for (std::size_t i = 0; i < scene.meshes.size(); ++i)
-        meshes_.push_back(upload_mesh(gl_, caps_, scene.meshes[i], storages[i]));
+        meshes_.push_back(upload_mesh(gl_, caps_, scene.meshes[i], storages[i], orders[i]));
     // Surfaces choose the dialect: every effect that draws them has their tier, or one of the same language.
     const bool low = plan_.tier == Tier::low || std::ranges::any_of(plan_.effects, [](const EffectDecision& decision) {
                          return decision.in && decision.tier == Tier::low;
@@ -402,7 +403,7 @@ void Renderer::draw_full_screen() {
     gl_.DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void Renderer::draw_mesh(const DrawMesh& mesh) {
+void Renderer::draw_mesh(const DrawMesh& mesh, const glm::mat4* clip_from_stored) {
     for (const DrawPart& part : mesh.parts) {
         if (part.array) {
             state_.bind_array(part.array.name());
@@ -414,7 +415,20 @@ void Renderer::draw_mesh(const DrawMesh& mesh) {
             state_.enable_attributes(wanted);
             if (part.indices) gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, part.indices.name());
         }
-        draw_part(mesh, part);
+        if (clip_from_stored != nullptr && !part.facing.groups.empty() && state_.culls())
+            draw_fronts(mesh, part, *clip_from_stored);
+        else draw_part(mesh, part);
+    }
+}
+
+void Renderer::draw_fronts(const DrawMesh& mesh, const DrawPart& part, const glm::mat4& clip_from_stored) {
+    const std::size_t index_bytes = part.index_type == GL_UNSIGNED_SHORT ? 2 : 4;
+    std::array<TriangleRange, kMostRanges> ranges;
+    const std::size_t count = visible_ranges(part.facing, clip_from_stored, ranges);
+    for (const TriangleRange& range : std::span(ranges).first(count)) {
+        unflushed_triangles_ += range.count;
+        gl_.DrawElements(mesh.mode, static_cast<GLsizei>(3 * range.count), part.index_type,
+                         reinterpret_cast<const void*>(3 * range.first * index_bytes));
     }
 }
 
@@ -432,10 +446,10 @@ void Renderer::flush() {
     unflushed_triangles_ = 0;
 }
 
-void Renderer::draw_surface(int surface, int skin_location) {
+void Renderer::draw_surface(int surface, int skin_location, const glm::mat4* clip_from_stored) {
     const DrawMesh& drawn = mesh(scene_->surfaces[static_cast<std::size_t>(surface)].mesh);
     const MovingMeshes::Moving* moving = moving_ ? moving_->find(surface) : nullptr;
-    if (moving == nullptr) return draw_mesh(drawn);
+    if (moving == nullptr) return draw_mesh(drawn, clip_from_stored);
     if (moving->skinned && moving->way == Skinning::texture) bind_texture(kJointUnit, moving->palette_texture.name());
     if (moving->skinned && moving->way == Skinning::uniforms && skin_location >= 0)
         gl_.Uniform4fv(skin_location, static_cast<GLsizei>(3 * moving->palette.size()), &moving->palette[0][0].x);

@@ -135,9 +135,10 @@ public:
     /// Averages the samples of a multisampled target into `to_target`, which the pass being drawn writes.
     void resolve(int from_target, int to_target);
     void draw_full_screen();  ///< one triangle over the target; attribute kPosition is the clip position (vec2)
-    void draw_mesh(const DrawMesh& mesh);
-    /// Draws a surface as its pose has it, with a program made with its skin_define().
-    void draw_surface(int surface, int skin_location);
+    /// With `clip_from_stored`, triangles that face away there may be left out, where backs are culled.
+    void draw_mesh(const DrawMesh& mesh, const glm::mat4* clip_from_stored = nullptr);
+    /// The same for a surface as its pose has it, with a program made with its skin_define().
+    void draw_surface(int surface, int skin_location, const glm::mat4* clip_from_stored = nullptr);
     /// Has this pass drawn so much since its last flush that it should be flushed if as much is to come? See
     /// engine/frame/early_flush.h; false on drivers that begin by themselves.
     [[nodiscard]] bool flush_is_due() const {
@@ -160,6 +161,7 @@ private:
     void begin(const Pass& pass, std::uint32_t framebuffer);
     void finish_frame();
     void draw_part(const DrawMesh& mesh, const DrawPart& part);
+    void draw_fronts(const DrawMesh& mesh, const DrawPart& part, const glm::mat4& clip_from_stored);
     void update_moving_meshes();
     void draw_passes(const View& view, PassTimer* timer);
 

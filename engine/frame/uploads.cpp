@@ -163,6 +163,19 @@ DrawPart upload_piece(gl::EntryPoints& gl, const gl::Caps& caps, const MeshPiece
     return part;
 }
 
+/// Positions of its vertices as they are stored: they stand first.
+std::vector<glm::vec3> positions_of(const MeshPiece& piece, const VertexLayout& layout) {
+    const bool is_whole = layout.streams[0].type == GL_UNSIGNED_SHORT;
+    std::vector<glm::vec3> positions(piece.vertex_count);
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        const std::byte* from = piece.vertices.data() + i * static_cast<std::size_t>(layout.stride);
+        glm::u16vec3 steps;
+        std::memcpy(&steps, from, sizeof(steps));
+        std::memcpy(&positions[i], from, sizeof(positions[i]));
+        if (is_whole) positions[i] = glm::vec3(steps);
+    }
+    return positions;
+}
 
 }  // namespace
 
@@ -255,7 +268,8 @@ std::int64_t DrawMesh::triangles() const {
     return sum;
 }
 
-DrawMesh upload_mesh(gl::EntryPoints& gl, const gl::Caps& caps, const Mesh& mesh, const MeshStorage& storage) {
+DrawMesh upload_mesh(gl::EntryPoints& gl, const gl::Caps& caps, const Mesh& mesh, const MeshStorage& storage,
+                     bool orders) {
     DrawMesh draw;
     draw.box = local_box(mesh);
     draw.storage = storage;
@@ -271,8 +285,11 @@ DrawMesh upload_mesh(gl::EntryPoints& gl, const gl::Caps& caps, const Mesh& mesh
     draw.has_colors = !mesh.colors.empty();
     draw.has_uv1 = !mesh.uv1.empty();
     draw.mode = gl_mode(mesh.primitive);
-    for (const MeshPiece& piece : packed_pieces(mesh, storage, caps.index_uint ? ~std::size_t{0} : 65536)) {
+    for (MeshPiece& piece : packed_pieces(mesh, storage, caps.index_uint ? ~std::size_t{0} : 65536)) {
+        FacingGroups facing;
+        if (orders) facing = order_by_facing(positions_of(piece, draw.layout), piece.indices);
         draw.parts.push_back(upload_piece(gl, caps, piece, draw.layout));
+        draw.parts.back().facing = std::move(facing);
         draw.mode = gl_mode(piece.primitive);
     }
     return draw;

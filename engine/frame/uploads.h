@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/frame/facing.h"
 #include "engine/frame/scene.h"
 #include "engine/frame/texture_storage.h"
 #include "engine/frame/vertex_layout.h"
@@ -28,6 +29,7 @@ struct DrawPart {
     int vertex_count = 0;
     int triangles = 0;                   ///< that a draw of it makes; points and lines: 0
     std::vector<std::uint32_t> sources;  ///< vertex of the mesh behind each of the part's; empty: the same
+    FacingGroups facing;                 ///< of its triangles, in stored positions; empty: the mesh's own order
 };
 
 /// The mesh of a scene on the device.
@@ -65,8 +67,9 @@ struct MeshPiece {
 /// lines 0.
 [[nodiscard]] int triangles_in(Primitive primitive, int count);
 
+/// `orders`: triangles may change their order, so that those that face away can be left out (facing.h).
 [[nodiscard]] DrawMesh upload_mesh(gl::EntryPoints& gl, const gl::Caps& caps, const Mesh& mesh,
-                                   const MeshStorage& storage);
+                                   const MeshStorage& storage, bool orders = false);
 
 /// Points the attributes of `layout` at the buffer bound to GL_ARRAY_BUFFER; switches none on or off.
 void set_vertex_layout(gl::EntryPoints& gl, const VertexLayout& layout);

@@ -119,7 +119,7 @@ void FloorWork::draw(Renderer& renderer, const View& view, int) {
         const glm::mat4 stored = from_stored(clip, mesh.storage);
         renderer.gl().UniformMatrix4fv(draw.clip_from_local, 1, GL_FALSE, &stored[0][0]);
         if (draw.uv_range >= 0) renderer.gl().Uniform4fv(draw.uv_range, 1, &mesh.storage.uv_range.x);
-        renderer.draw_surface(draw.surface, draw.skin);
+        renderer.draw_surface(draw.surface, draw.skin, &stored);
     }
 }
 

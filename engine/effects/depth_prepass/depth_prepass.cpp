@@ -95,7 +95,7 @@ public:
             renderer.use(*variant.program);
             renderer.set_cull(!renderer.scene().materials[static_cast<std::size_t>(surface.material)].double_sided);
             renderer.gl().UniformMatrix4fv(variant.clip_from_local, 1, GL_FALSE, &matrix[0][0]);
-            renderer.draw_surface(draw.surface, variant.skin);
+            renderer.draw_surface(draw.surface, variant.skin, &matrix);
         }
         renderer.set_color_mask(true);
     }

@@ -486,7 +486,7 @@ void SurfaceWork::draw_one(Renderer& renderer, const View& view, Draw& draw, boo
     set_matrices(renderer, view, variant, draw, mesh, eye, clip, scale);
     set_lights(renderer, view, variant, draw, scale);
     if (draw.changes_shape) renderer.draw_surface(draw.surface, variant.skin);
-    else renderer.draw_mesh(mesh);
+    else renderer.draw_mesh(mesh, &clip);
 }
 
 // The set is the draw's own: another choice is told to the program even where it was told this set before.

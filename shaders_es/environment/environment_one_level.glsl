@@ -16,4 +16,14 @@ uniform HALF samplerCube one_level_map;
 vec3 environment_reflection(vec3 toward, float smoothness) {
     return unpacked_rgbm(sample_cube(one_level_map, toward), reflection_scale.x);
 }
+
+// The root of that, but for reflection_scale: where vertices carry the scale.
+//@variant TIER_LOW CONSTANT_SMOOTHNESS
+//@domain toward: unit; HALF samplerCube one_level_map: 0..1
+//@promise in 0..1
+//@jumps step(0.5, toward.x)
+vec3 environment_root(vec3 toward) {
+    vec4 stored = sample_cube(one_level_map, toward);
+    return stored.rgb * stored.a;
+}
 #endif

@@ -17,6 +17,9 @@ void place_irradiance(vec3 n) {
                    irradiance_terms[3].rgb, irradiance_terms[4].rgb, irradiance_terms[5].rgb,
                    irradiance_terms[6].rgb, irradiance_terms[7].rgb, irradiance_terms[8].rgb);
 }
+#if defined(LIT_BY_VERTEX) && !defined(MIRROR_BY_VERTEX)
+uniform highp vec4 mirror_scale;  // x: as reflection_scale.x of environment_one_level.glsl
+#endif
 #ifdef MIRROR_BY_VERTEX
 uniform highp vec4 mirror_terms[12];  // 9: an axis, unit; 10 and 11: bands 3 and 4 about it
 

@@ -4,7 +4,7 @@
 //   surface.material  albedo, specular, smoothness, power, n, v may be changed (all set, nothing lit yet)
 //   surface.ambient   diffuse_light and mirrored_light, what falls in from everywhere, may be changed
 //   surface.sun       sun_light may be dimmed
-//   surface.mirrored  mirrored_light, that of the ray `mirrored`, may be changed (only in programs with LIT_BY_VERTEX, which have none
+//   surface.mirrored  light_root, the root of what the ray `mirrored` sees, may be changed (only in programs with LIT_BY_VERTEX, which have none
 //                     of the points above, and not in those with MIRROR_BY_VERTEX)
 //   surface.lighting  light holds all reflected light
 //   surface.color     color holds what will be stored
@@ -30,7 +30,7 @@ FRAGMENT_IN HALF vec3 vertex_normal;
 FRAGMENT_IN HALF vec3 vertex_light;     // all that is diffuse, and the emission; with MIRROR_BY_VERTEX all
 #ifndef MIRROR_BY_VERTEX
 FRAGMENT_IN FULL vec3 vertex_mirrored;  // FULL: metres
-FRAGMENT_IN HALF vec3 vertex_mirror;  // Fresnel: what multiplies the light of the mirrored ray
+FRAGMENT_IN HALF vec3 vertex_mirror;  // root of Fresnel: what multiplies the root of the mirrored ray's light
 #ifdef SUN
 FRAGMENT_IN HALF vec4 vertex_highlight;  // rgb in its middle, w power
 #endif
@@ -131,9 +131,10 @@ void main() {
     // FULL: the highlight is its distance to the sun.
     FULL vec3 mirrored = vertex_mirrored * inversesqrt(max(dot(vertex_mirrored, vertex_mirrored), 6.2e-5));
     float smoothness = 0.0;  // one for the whole surface: its cube is chosen already
-    vec3 mirrored_light = vec3(0.0);
+    vec3 light_root = vec3(0.0);
     //@insert surface.mirrored
-    vec3 light = vertex_light + vertex_mirror * mirrored_light;
+    light_root *= vertex_mirror;
+    vec3 light = vertex_light + light_root * light_root;
 #ifdef SUN
     float root = mirrored_root(mirrored, sun_direction.xyz, vertex_highlight.w);
     light += vertex_highlight.rgb * root * root;

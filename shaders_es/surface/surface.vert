@@ -2,6 +2,7 @@
 // subtracts in double), so a scene 10 km from the origin shades as it does at the origin. Insertion point:
 //   surface.vertex        at [m] from the eye, n (the side that is seen where vertices are lit); lit surfaces only
 //   surface.vertex_light  diffuse_light and mirrored_light, what falls in from everywhere, may be changed; with LIT_BY_VERTEX only
+//   surface.vertex_mirror  vertex_mirror, which multiplies the root at surface.mirrored, may be; with LIT_BY_VERTEX, not MIRROR_BY_VERTEX
 //   surface.vertex_mirrored  mirrored_light, that of the unit ray `mirrored`, may be changed; with MIRROR_BY_VERTEX only
 #include "surface/surface_limits.h"
 #include "surface/surface_lights.glsl"
@@ -145,6 +146,9 @@ void main() {
     light_vertex(n, vertex_to_eye, color.rgb, diffuse_light, mirrored_light);
 #else
     light_vertex(n, vertex_to_eye, vec3(1.0), diffuse_light, mirrored_light);
+#endif
+#ifndef MIRROR_BY_VERTEX
+    //@insert surface.vertex_mirror
 #endif
 #endif
 #endif

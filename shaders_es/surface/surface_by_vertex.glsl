@@ -21,7 +21,7 @@ VERTEX_OUT HALF vec4 vertex_highlight;
 VERTEX_OUT HALF vec3 vertex_light;
 #ifndef MIRROR_BY_VERTEX
 VERTEX_OUT FULL vec3 vertex_mirrored;  // FULL: as long as the way to the eye
-VERTEX_OUT HALF vec3 vertex_mirror;
+VERTEX_OUT HALF vec3 vertex_mirror;  // root of Fresnel, and of what scales the mirrored light
 #endif
 
 // Past half's range a 0 in the fragment stage would make it NaN.
@@ -52,7 +52,7 @@ void light_vertex(vec3 n, vec3 to_eye, vec3 color, vec3 diffuse_light, vec3 mirr
     vec3 mirror = fresnel_glossy(specular, lit_albedo.w, saturate(dot(n, v)));
 #ifndef MIRROR_BY_VERTEX
     vertex_mirrored = mirrored_ray(n, to_eye);
-    vertex_mirror = mirror;
+    vertex_mirror = sqrt(mirror);
 #endif
     vec3 light = lit_emission.rgb + albedo * diffuse_light + mirror * mirrored_light;
 #ifdef SUN

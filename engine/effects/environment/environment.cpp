@@ -21,15 +21,19 @@ constexpr gl::Insertion kVertex{"surface.vertex", "environment/environment_verte
 constexpr gl::Insertion kVertexLight{"surface.vertex_light", nullptr, "diffuse_light += vertex_irradiance;"};
 constexpr gl::Insertion kVertexMirrored{"surface.vertex_mirrored", nullptr,
                                        "mirrored_light += rough_reflection(mirrored);"};
-constexpr const char* kMirrored = "mirrored_light += environment_reflection(mirrored, smoothness);";
+// As low has it only where one cube holds all that a surface mirrors: all that vertices light.
+constexpr gl::Insertion kVertexMirror{"surface.vertex_mirror", nullptr, "vertex_mirror *= mirror_scale.x;",
+                                      "CONSTANT_SMOOTHNESS"};
+constexpr gl::Insertion kLowMirrored{"surface.mirrored", "environment/environment_low_fragment.glsl",
+                                     "light_root += environment_root(mirrored);", "CONSTANT_SMOOTHNESS"};
 constexpr std::array kInsertions = {
-    kVertex, kVertexLight, gl::Insertion{"surface.mirrored", "environment/environment_cube.glsl", kMirrored},
+    kVertex, kVertexLight, gl::Insertion{"surface.mirrored", "environment/environment_cube.glsl",
+                           "light_root += sqrt(environment_reflection(mirrored, smoothness));"},
     gl::Insertion{"surface.ambient", "environment/environment_cube.glsl",
                            "diffuse_light += environment_irradiance(n); "
                            "mirrored_light += environment_reflection(reflect(-v, n), smoothness);"}};
 constexpr std::array kLowInsertions = {
-    kVertex, kVertexLight, kVertexMirrored,
-    gl::Insertion{"surface.mirrored", "environment/environment_low_fragment.glsl", kMirrored},
+    kVertex, kVertexLight, kVertexMirror, kVertexMirrored, kLowMirrored,
     gl::Insertion{"surface.ambient", "environment/environment_low_fragment.glsl",
                            "diffuse_light += vertex_irradiance; "
                            "mirrored_light += environment_reflection(reflect(-v, n), smoothness);"}};
@@ -90,6 +94,7 @@ public:
     int adopt(Renderer& renderer, gl::Program& program) override {
         Adopted adopted;
         adopted.scale = program.uniform_if_used("reflection_scale");
+        adopted.mirror_scale = program.uniform_if_used("mirror_scale");
         adopted.terms = program.uniform_if_used("irradiance_terms");
         adopted.mirror = program.uniform_if_used("mirror_terms");
         for (const auto& [sampler, unit] :
@@ -100,7 +105,7 @@ public:
         }
         adopted.reads_levels = program.uniform_if_used("reflection_map") >= 0;
         if (adopted.reads_levels) upload_levels(renderer);
-        if (adopted.scale < 0 && adopted.terms < 0) return -1;  // not lit
+        if (adopted.scale < 0 && adopted.mirror_scale < 0 && adopted.terms < 0) return -1;  // not lit
         adopted_.push_back(adopted);
         return static_cast<int>(adopted_.size()) - 1;
     }
@@ -109,12 +114,11 @@ public:
         const Adopted& adopted = adopted_[static_cast<std::size_t>(index)];
         gl::EntryPoints& gl = renderer.gl();
         view_exposure_ = view.exposure;
-        if (adopted.scale >= 0) {
-            const float scale =
-                tier_ == Tier::reference ? view.exposure / exposure_ : root_range_ * std::sqrt(view.exposure);
-            const glm::vec4 value(map_.levels.empty() ? 0.0f : scale,
-                                  static_cast<float>(map_.roughest_level - first_level_), 0.0f, 0.0f);
-            gl.Uniform4fv(adopted.scale, 1, &value.x);
+        const float scale = tier_ == Tier::reference ? view.exposure / exposure_ : root_range_ * std::sqrt(view.exposure);
+        const glm::vec4 scale_and_level(map_.levels.empty() ? 0.0f : scale,
+                                        static_cast<float>(map_.roughest_level - first_level_), 0.0f, 0.0f);
+        for (const int location : {adopted.scale, adopted.mirror_scale}) {
+            if (location >= 0) gl.Uniform4fv(location, 1, &scale_and_level.x);
         }
         if (adopted.terms >= 0) {
             // Nine terms of at most 6000 sum to less than half's 65504; in half inf - inf would be NaN.
@@ -146,7 +150,8 @@ public:
 
 private:
     struct Adopted {
-        int scale = -1;
+        int scale = -1;         ///< of the fragment stage
+        int mirror_scale = -1;  ///< of the vertex stage
         int terms = -1;
         int mirror = -1;
         bool reads_levels = false;

@@ -188,8 +188,8 @@ std::vector<std::string> added_to(const EffectCard& card, const PlanContext& con
     return added;
 }
 
-/// `context`'s tier; that of the effect whose shaders the card's code goes into, where it adds something else at that
-/// tier. What is added is compiled with them: at low they are ES 1.00, and elsewhere other stages belong together.
+/// `context`'s tier; that of the effect whose shaders the card's code goes into, where one of the two is low and the card
+/// adds something else there. What is added is compiled with them: at low they are ES 1.00, and hold other stages.
 Tier fitting_tier(const EffectCard& card, const PlanContext& context, std::span<const EffectCard* const> cards,
                   std::span<const Tier> tiers, const Wishes& wishes) {
     Tier tier = context.tier;
@@ -200,7 +200,9 @@ Tier fitting_tier(const EffectCard& card, const PlanContext& context, std::span<
         const EffectCard& host = *cards[i];
         const std::vector<std::string> added = added_to(card, at_tier(context, tier), host, tiers[i]);
         if (added.empty() || !host.called_for(at_tier(context, tiers[i])).called_for) continue;
-        if (added != added_to(card, at_tier(context, tiers[i]), host, tiers[i])) {
+        // Above low shaders are of one language, and hold what is added at either tier.
+        const bool differs = (tier == Tier::low) != (tiers[i] == Tier::low);
+        if (differs && added != added_to(card, at_tier(context, tiers[i]), host, tiers[i])) {
             if (!may_follow) {
                 throw Error(Fault::usage,
                             fmt::format("{0} at {1} adds code to the shaders of {2} that {2} at {3} cannot hold; use "

@@ -20,9 +20,11 @@ constexpr std::array kBlobShaders = {
 constexpr std::array kMapShaders = {
     ShaderVariant{"shadow/shadow_map.vert", "shadow/shadow_map.frag",
                   "ALPHA_MASK BASE_COLOR_MAP VERTEX_COLOR UV_MAPPED UV_FROM_1 SKIN_SMALL SKIN_LARGE SKIN_TEXTURE"}};
-constexpr gl::Insertion kInsertions[] = {
-    {"surface.vertex", "shadow/shadow_place.glsl", "shadow_at = placed_in_shadow(at, n);"},
-    {"surface.sun", "shadow/shadow_receive.glsl", "sun_light *= sun_share();"}};
+constexpr gl::Insertion kPlace{"surface.vertex", "shadow/shadow_place.glsl", "shadow_at = placed_in_shadow(at, n);"};
+constexpr std::array kInsertions = {
+    kPlace, gl::Insertion{"surface.sun", "shadow/shadow_receive.glsl", "sun_light *= sun_share();"}};
+constexpr std::array kReferenceInsertions = {
+    kPlace, gl::Insertion{"surface.sun", "shadow/shadow_receive.glsl", "sun_light *= sun_share_of_square();"}};
 
 Demand called_for_map(const Scene& scene) {
     int casters = 0, receivers = 0, both = 0;
@@ -110,6 +112,7 @@ void add_passes(const PlanContext& context, FramePlan& plan) {
 
 std::span<const gl::Insertion> insertions(const PlanContext& context) {
     if (context.tier == Tier::low) return {};
+    if (context.tier == Tier::reference) return kReferenceInsertions;
     return kInsertions;
 }
 

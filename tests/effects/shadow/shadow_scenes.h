@@ -76,10 +76,11 @@ inline reference::Point pixel_ray(const View& view, int x, int y) {
     return {ray.x, ray.y, ray.z};
 }
 
-/// scene_color with the shadow switched, as floats, one sample a pixel.
+/// scene_color with the shadow switched, as floats, one sample a pixel. `surface`: its tier, if not `tier`.
 inline FloatPicture with_shadow(harness::Ground& ground, const Scene& scene, const View& view, Tier tier,
-                                Arithmetic arithmetic, bool on) {
+                                Arithmetic arithmetic, bool on, std::optional<Tier> surface = {}) {
     const Wishes wishes{.tier = tier,
+                        .effect_tiers = {{"surface", surface.value_or(tier)}},
                         .effect_switches = {{"shadow", on}, {"anti_alias", false}},
                         .arithmetic = arithmetic,
                         .storage = gl::PixelFormat::rgba32f};
@@ -99,9 +100,10 @@ struct Shares {
         return values[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
     }
 };
-inline Shares shares(harness::Ground& ground, const Scene& scene, const View& view, Tier tier, Arithmetic arithmetic) {
-    const FloatPicture on = with_shadow(ground, scene, view, tier, arithmetic, true);
-    const FloatPicture off = with_shadow(ground, scene, view, tier, arithmetic, false);
+inline Shares shares(harness::Ground& ground, const Scene& scene, const View& view, Tier tier, Arithmetic arithmetic,
+                     std::optional<Tier> surface = {}) {
+    const FloatPicture on = with_shadow(ground, scene, view, tier, arithmetic, true, surface);
+    const FloatPicture off = with_shadow(ground, scene, view, tier, arithmetic, false, surface);
     Shares result{.width = on.width, .values = {}};
     for (std::size_t i = 0; i < on.rgba.size(); i += 4) {
         // Below 1e-3 the quotient says nothing: the surface looks away from the sun.

@@ -42,6 +42,18 @@ TEST_F(Shadow, EdgesAreThoseOfRaysThroughABox) {
     EXPECT_LT(wrong.darkest, 0.01);
 }
 
+TEST_F(Shadow, TapsAreThoseOfItsOwnTierOnASurfaceOfAnother) {
+    const Scene scene = floating_box({0.6f, -1.0f, 0.4f});
+    for (const Tier tier : kTiers) {
+        const Tier other = tier == Tier::console ? Tier::reference : Tier::console;
+        const TracedGap gap = traced_gap(ground(), scene, slanted_view(240, 180), tier, Arithmetic::full,
+                                         scene.lights.front().direction, other);
+        EXPECT_GT(gap.edges, 100);
+        // As where the surface has the shadow's tier. Four taps of a map of 2048 are 0.1 from the box of 36.
+        EXPECT_LT(gap.filter_rms, tier == Tier::reference ? 0.04 : 0.1) << name(tier);
+    }
+}
+
 TEST_F(Shadow, NeitherAcneNorLeakFromNoonToGrazing) {
     for (const float elevation_deg : {90.0f, 75.0f, 45.0f, 20.0f, 8.0f, 3.0f}) {
         const float elevation = elevation_deg * std::numbers::pi_v<float> / 180.0f;

@@ -96,8 +96,8 @@ inline SeenPlace seen_place(const TracedScene& traced, const View& view, int x, 
 /// `scene` of flat faces, drawn and traced. `sun_direction`: of the traced sun; another than the scene's plants a wrong
 /// formula.
 inline TracedGap traced_gap(harness::Ground& ground, const Scene& scene, const View& view, Tier tier,
-                            Arithmetic arithmetic, const glm::vec3& sun_direction) {
-    const Shares drawn = shares(ground, scene, view, tier, arithmetic);
+                            Arithmetic arithmetic, const glm::vec3& sun_direction, std::optional<Tier> surface = {}) {
+    const Shares drawn = shares(ground, scene, view, tier, arithmetic, surface);
     const TracedScene traced = traced_scene(scene, sun_direction);
     const double texel = texel_m(scene, view, tier);
     const double filter = (tier == Tier::reference ? 6.0 : 3.25) * texel;  // the box that the taps stand for

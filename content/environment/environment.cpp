@@ -54,19 +54,18 @@ int thread_count(const EnvironmentOptions& options) {
     return static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 }
 
-StoredEnvironment filtered(const Equirectangular& picture, const std::string& name, const EnvironmentOptions& options) {
+StoredEnvironment filtered(const Equirectangular& picture, const EnvironmentOptions& options) {
     const Light light{light_taps(picture, kFineTaps), light_taps(picture, kCoarseTaps)};
     StoredEnvironment result;
-    result.map.name = name;
     result.map.size = options.size;
     prefilter(light, thread_count(options), options.progress, result.map);
     const Irradiance diffuse = irradiance(light.fine);
     for (std::size_t i = 0; i < 9; ++i) result.map.irradiance[i] = glm::vec3(diffuse.terms[i]);
     if (diffuse.window > 0.0) {
         result.notices.push_back(fmt::format(
-            "{}: its light comes so much from one side that nine terms of its diffuse part would darken the "
-            "other too much; it was softened (window {:.4f}, first band x {:.3f}, second x {:.3f})",
-            name, diffuse.window, 1.0 / (1.0 + 4.0 * diffuse.window), 1.0 / (1.0 + 36.0 * diffuse.window)));
+            "its light comes so much from one side that nine terms of its diffuse part would darken the other too "
+            "much; it was softened (window {:.4f}, first band x {:.3f}, second x {:.3f})",
+            diffuse.window, 1.0 / (1.0 + 4.0 * diffuse.window), 1.0 / (1.0 + 36.0 * diffuse.window)));
     }
     return result;
 }
@@ -75,20 +74,24 @@ std::string_view bytes_of(const Equirectangular& picture) {
     return {reinterpret_cast<const char*>(picture.pixels.data()), picture.pixels.size() * sizeof(glm::vec3)};
 }
 
+/// The map as what was asked for by `asked_for`, the subject of its notices.
+LoadedEnvironment named(StoredEnvironment stored, std::string name, const std::string& asked_for, bool from_cache) {
+    stored.map.name = std::move(name);
+    for (std::string& notice : stored.notices) notice = asked_for + ": " + notice;
+    return {std::move(stored.map), std::move(stored.notices), from_cache};
+}
+
 /// What `source` (the bytes that decide the result) gives: from the cache, or made by `make`, then kept.
 template <typename Make>
-LoadedEnvironment kept(std::string_view source, const EnvironmentOptions& options, const Make& make) {
-    if (options.cache_folder.empty()) {
-        StoredEnvironment made = make();
-        return {std::move(made.map), std::move(made.notices), false};
-    }
+LoadedEnvironment kept(std::string_view source, const std::string& name, const std::string& asked_for,
+                       const EnvironmentOptions& options, const Make& make) {
+    if (options.cache_folder.empty()) return named(make(), name, asked_for, false);
     const std::filesystem::path file = cache_file(options.cache_folder, source, options.size);
-    if (std::optional<StoredEnvironment> stored = read_cache(file, options.size)) {
-        return {std::move(stored->map), std::move(stored->notices), true};
-    }
+    if (std::optional<StoredEnvironment> stored = read_cache(file, options.size))
+        return named(std::move(*stored), name, asked_for, true);
     StoredEnvironment made = make();
     const std::optional<std::string> failure = write_cache(file, made);
-    LoadedEnvironment result{std::move(made.map), std::move(made.notices), false};
+    LoadedEnvironment result = named(std::move(made), name, asked_for, false);
     if (failure) result.notices.push_back(*failure);
     return result;
 }
@@ -105,7 +108,7 @@ LoadedEnvironment environment(const std::string& name_or_file, const Environment
     check_options(options);
     if (const BuiltInEnvironment* drawn_one = built_in(name_or_file)) {
         const Equirectangular picture = drawn(*drawn_one);
-        return kept(bytes_of(picture), options, [&] { return filtered(picture, name_or_file, options); });
+        return kept(bytes_of(picture), name_or_file, name_or_file, options, [&] { return filtered(picture, options); });
     }
     const std::filesystem::path file(name_or_file);
     if (!is_picture(file)) {
@@ -115,11 +118,11 @@ LoadedEnvironment environment(const std::string& name_or_file, const Environment
                                               name_or_file, did_you_mean(name_or_file, names), fmt::join(names, ", ")));
     }
     const std::string bytes(std::string_view(read_regular_file(file, kMostPictureBytes, name_or_file)));
-    // The name is in the map and in its notices, so it decides the result too.
-    return kept(name_or_file + '\0' + bytes, options, [&] {
+    // The ending says how the bytes are decoded.
+    return kept(file.extension().string() + '\0' + bytes, file.stem().string(), name_or_file, options, [&] {
         std::vector<std::string> notices;
         const Equirectangular picture = decode_equirectangular(bytes, file, notices);
-        StoredEnvironment result = filtered(picture, file.stem().string(), options);
+        StoredEnvironment result = filtered(picture, options);
         result.notices.insert(result.notices.begin(), notices.begin(), notices.end());
         return result;
     });

@@ -19,7 +19,7 @@ namespace halfframe::content {
 namespace {
 
 /// Raise the number whenever the same source would give other texels, or the layout below changes.
-constexpr std::string_view kVersion = "halfframe environment 2\n";
+constexpr std::string_view kVersion = "halfframe environment 3\n";
 
 template <typename T>
 void put(std::string& bytes, const T* values, std::size_t count) {
@@ -51,7 +51,6 @@ bool take_text(std::string_view& bytes, std::string& text) {
 
 std::string payload_of(const StoredEnvironment& stored) {
     std::string bytes;
-    put_text(bytes, stored.map.name);
     put(bytes, &stored.map.size, 1);
     for (const std::vector<glm::vec3>& level : stored.map.levels) put(bytes, level.data(), level.size());
     put(bytes, stored.map.powers.data(), stored.map.powers.size());
@@ -62,7 +61,7 @@ std::string payload_of(const StoredEnvironment& stored) {
 
 std::optional<StoredEnvironment> parse_payload(std::string_view bytes, int size) {
     StoredEnvironment stored;
-    if (!take_text(bytes, stored.map.name) || !take(bytes, &stored.map.size, 1) || stored.map.size != size) return {};
+    if (!take(bytes, &stored.map.size, 1) || stored.map.size != size) return {};
     for (int side = size; side >= 1; side /= 2) {
         stored.map.levels.emplace_back(static_cast<std::size_t>(6 * side * side));
         if (!take(bytes, stored.map.levels.back().data(), stored.map.levels.back().size())) return {};

@@ -88,13 +88,12 @@ Equirectangular decode_equirectangular(std::string_view bytes, const std::filesy
         all_black = all_black && pixel == glm::vec3(0.0f);
     }
     if (count.not_numbers + count.infinite + count.negative + count.too_bright > 0) {
-        notices.push_back(fmt::format(
-            "{}: values mended: {} NaN and {} negative to 0, {} infinite to {}, {} over {} to "
-            "that",
-            name, count.not_numbers, count.negative, count.infinite, kInfinite, count.too_bright, kBrightest));
+        notices.push_back(
+            fmt::format("values mended: {} NaN and {} negative to 0, {} infinite to {}, {} over {} to that",
+                        count.not_numbers, count.negative, count.infinite, kInfinite, count.too_bright, kBrightest));
     }
     if (all_black) {
-        notices.push_back(fmt::format("{}: every pixel is black: the environment gives no light", name));
+        notices.emplace_back("every pixel is black: the environment gives no light");
     }
     return {raw.width, raw.height, std::move(raw.pixels)};
 }

@@ -70,6 +70,21 @@ TEST(EnvironmentCache, AHitIsTheMissAgain) {
     EXPECT_EQ(files_in(cache).size(), 3u);
 }
 
+TEST(EnvironmentCache, TheSameBytesUnderAnotherNameAreAHit) {
+    const TemporaryFolder folder;
+    const EnvironmentOptions options{.size = 16, .threads = 1, .cache_folder = folder.path() / "cache"};
+    const LoadedEnvironment made = content::environment(lamp_file(folder, "lamp.hdr", 200), options);
+    const std::string copy = lamp_file(folder, "copy.hdr", 200);
+    const LoadedEnvironment kept = content::environment(copy, options);
+    EXPECT_TRUE(kept.from_cache);
+    EXPECT_EQ(kept.map.levels, made.map.levels);
+    EXPECT_EQ(kept.map.name, "copy");
+    ASSERT_EQ(kept.notices.size(), 1u);
+    EXPECT_TRUE(kept.notices[0].starts_with(copy + ": ")) << kept.notices[0];
+    // The same bytes to be read as something else are another picture, or none.
+    EXPECT_ANY_THROW((void)content::environment(lamp_file(folder, "lamp.exr", 200), options));
+}
+
 TEST(EnvironmentCache, ABrokenFileIsWrittenAgain) {
     const TemporaryFolder folder;
     const EnvironmentOptions options{.size = 16, .threads = 1, .cache_folder = folder.path() / "cache"};

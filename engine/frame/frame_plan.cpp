@@ -116,6 +116,16 @@ std::optional<std::string> wish_for_light(const Wishes& wishes) {
     return std::nullopt;
 }
 
+/// The first pass that blends into 32-bit floats, or nothing.
+const Pass* blends_into_float32(const FramePlan& plan) {
+    const auto blends = [&](const Pass& pass) {
+        return pass.blends && pass.color &&
+               plan.targets[static_cast<std::size_t>(*pass.color)].format == PixelFormat::rgba32f;
+    };
+    const auto found = std::ranges::find_if(plan.passes, blends);
+    return found != plan.passes.end() ? &*found : nullptr;
+}
+
 /// What in a plan that stores light needs it stored, as a sentence, or nothing: then only the pass that maps light
 /// reads it, and whatever draws may map its own.
 std::optional<std::string> need_of_light(const FramePlan& plan) {
@@ -423,6 +433,18 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Wishes& wishes,
         storage.why = *need;
     }
     FramePlan plan = planned(storage, scene, view, wishes, caps, cards);
+    if (const Pass* blending = caps.float_blend ? nullptr : blends_into_float32(plan); blending != nullptr) {
+        if (wishes.storage || wishes.census) {
+            throw Error(Fault::usage,
+                        fmt::format("{} blends into RGBA32F, which {} does not do (GL_EXT_float_blend); {}",
+                                    blending->effect, caps.device,
+                                    wishes.census ? "leave --census out or use --device native"
+                                                  : "use --storage rgba16f or leave it out"));
+        }
+        storage = {*std::ranges::find_if(kLadder, [&](PixelFormat format) { return renders(caps, format); }),
+                   fmt::format("{} and {} does not blend RGBA32F", storage.why, caps.device)};
+        plan = planned(storage, scene, view, wishes, caps, cards);
+    }
     const bool best = storage.format == kLadder.front() || storage.format == PixelFormat::rgba32f;
     if (!wishes.storage && tier != Tier::low && !best) {
         plan.notices.insert(plan.notices.begin(),
@@ -500,6 +522,8 @@ std::optional<std::string> broken_rule(const FramePlan& plan, const gl::Caps& ca
                                caps.device, limit);
         }
     }
+    if (const Pass* blending = caps.float_blend ? nullptr : blends_into_float32(plan); blending != nullptr)
+        return fmt::format("pass {} blends into RGBA32F, which {} does not do", blending->name, caps.device);
     std::vector<bool> written(plan.targets.size(), false);
     for (const Pass& pass : plan.passes) {
         if (auto broken = broken_pass_rule(plan, pass, written)) return broken;

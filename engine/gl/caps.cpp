@@ -131,6 +131,7 @@ void read_abilities(EntryPoints& gl, Caps& caps, const Version& version) {
     caps.samples_passed = loaded(Call::GetQueryObjectui64v) && desktop_since(33);
     caps.debug_labels = loaded(Call::ObjectLabel) &&
                         (has("GL_KHR_debug") || desktop_since(43) || (!version.desktop && version.number >= 32));
+    caps.float_blend = version.desktop || has("GL_EXT_float_blend");
     caps.anisotropy = has("GL_EXT_texture_filter_anisotropic") || has("GL_ARB_texture_filter_anisotropic");
     // Desktop drivers and ES ones write the name alike.
     caps.s3tc = has("GL_EXT_texture_compression_s3tc") && loaded(Call::CompressedTexImage2D);
@@ -307,6 +308,8 @@ void mask_formats(Caps& caps, const Mask& mask, const DeviceProfile& profile) {
         bool& renders = caps.renders[static_cast<std::size_t>(format)];
         renders = renders && keep;
     };
+    // A desktop context blends them without an extension to its name.
+    caps.float_blend = caps.float_blend && (!profile.extensions || mask.grants("GL_EXT_float_blend"));
     // Float targets are core in ES 3.2 and an extension before. Without a list the machine's own finding stands.
     const bool core_float = caps.es_version >= 32 || !profile.extensions;
     const bool float_targets = core_float || mask.grants("GL_EXT_color_buffer_float");

@@ -61,6 +61,7 @@ struct Caps {
     bool sized_formats = false;         ///< ES 3.0: sized internal formats, sRGB textures, RGB10_A2
     bool srgb_textures = false;
     bool depth_texture = false;
+    bool float_blend = false;  ///< blends into RGBA32F: EXT_float_blend, or desktop
     bool npot_textures = false;  ///< full use of non-power-of-two textures: ES 3.0 or OES_texture_npot
     bool program_binary = false;
     bool fence_sync = false;

@@ -99,6 +99,7 @@ std::string abilities_text(const gl::Caps& caps) {
     add("timer queries", caps.timer_query);
     add("exact fragment counts", caps.samples_passed);
     add("debug labels", caps.debug_labels);
+    add("blending of 32-bit floats", caps.float_blend);
     add("anisotropic filtering", caps.anisotropy);
     add("discarding framebuffers", caps.discard_framebuffer);
     return table.text();

@@ -113,6 +113,24 @@ TEST(Plan, TakesTheHighestStorageThatRenders) {
     EXPECT_EQ(plan(scene, {.tier = Tier::reference}, able_caps()).storage, PixelFormat::rgba32f);
 }
 
+TEST(Plan, BlendsInto32BitFloatsOnlyWhereTheDeviceDoes) {
+    gl::Caps caps = able_caps();
+    caps.float_blend = false;
+    const FramePlan blended = plan(blended_scene(), {.tier = Tier::reference}, caps);
+    EXPECT_EQ(blended.storage, PixelFormat::rgba16f);
+    EXPECT_NE(blended.why_storage.find("does not blend RGBA32F"), std::string::npos) << blended.why_storage;
+    EXPECT_FALSE(broken_rule(blended, caps));
+    EXPECT_EQ(plan(square_scene(), {.tier = Tier::reference}, caps).storage, PixelFormat::rgba32f)
+        << "nothing here blends";
+    EXPECT_EQ(plan(square_scene(), {.census = true}, caps).targets[0].format, PixelFormat::rgba32f);
+    for (const Wishes& wishes : {Wishes{.storage = PixelFormat::rgba32f}, Wishes{.census = true}}) {
+        const std::string sentence = refusal(blended_scene(), wishes, caps);
+        EXPECT_NE(sentence.find("transparent blends into RGBA32F"), std::string::npos) << sentence;
+        EXPECT_NE(sentence.find(wishes.census ? "--census" : "--storage rgba16f"), std::string::npos) << sentence;
+    }
+    EXPECT_TRUE(broken_rule(plan(blended_scene(), {.census = true}), caps));
+}
+
 TEST(Plan, ChoosesTheBestTierTheDeviceRuns) {
     EXPECT_EQ(plan(square_scene()).tier, Tier::console);
     EXPECT_EQ(plan(square_scene(), {}, poor_caps()).tier, Tier::low);

@@ -19,6 +19,7 @@ inline gl::Caps able_caps() {
     caps.max_fragment_samplers = 16;
     caps.sized_formats = true;
     caps.srgb_textures = true;
+    caps.float_blend = true;
     caps.renders.fill(true);
     return caps;
 }

@@ -62,6 +62,7 @@ TEST_F(CapsTest, LlvmpipeRendersWhatWeRelyOn) {
         EXPECT_EQ(renders(caps(), format), format != PixelFormat::srgb8_alpha8) << name(format);
     }
     EXPECT_TRUE(caps().debug_labels);
+    EXPECT_TRUE(caps().float_blend);
     EXPECT_TRUE(caps().fence_sync);
     EXPECT_FALSE(caps().samples_passed) << "an ES context has boolean occlusion only";
 }
@@ -79,7 +80,7 @@ TEST_F(CapsTest, TheMinimumOfEs2HasNothingElse) {
     EXPECT_EQ(poor.fragment_highp_format.precision, 0);
     for (const bool ability : {poor.explicit_lod, poor.derivatives, poor.index_uint, poor.vertex_array_objects,
                                poor.sized_formats, poor.srgb_textures, poor.depth_texture, poor.npot_textures,
-                               poor.program_binary, poor.anisotropy, poor.discard_framebuffer}) {
+                               poor.program_binary, poor.anisotropy, poor.discard_framebuffer, poor.float_blend}) {
         EXPECT_FALSE(ability);
     }
     for (int i = 0; i < kPixelFormatCount; ++i) {

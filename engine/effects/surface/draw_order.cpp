@@ -44,8 +44,7 @@ std::uint64_t key_of(const DrawPlace& place, const View& view, OrderBy by) {
     if (by == OrderBy::far_first) return ~growing(squared(from_eye));
     const float to_centre = squared(from_eye), to_box = squared(glm::max(glm::abs(from_eye) - place.half, 0.0f));
     const std::uint64_t near = growing(std::max(to_box, kNearest * kNearest * to_centre));
-    const float magnified =
-        view.clip_from_view[1][1];  // a unit at a unit's distance; anywhere where the view is parallel
+    const float magnified = view.clip_from_view[1][1];  // a unit, one away; anywhere where the view is parallel
     const float whole = view.orthographic ? 1.0f : to_centre;
     const bool is_large = squared(place.half) * magnified * magnified >= kLargeShare * kLargeShare * whole;
     if (!is_large) return std::uint64_t{1} << 63 | state << 31 | near;

@@ -17,8 +17,8 @@ struct DrawPlace {
     glm::vec3 centre{0.0f};   ///< of its box [m], world
     glm::vec3 half{0.0f};     ///< half of the box's extent [m], >= 0
     std::uint32_t state = 0;  ///< rank among the states of all draws: equal ones need no change between
-    float far_squared =
-        std::numeric_limits<float>::infinity();  ///< [m^2] from the eye to `centre`: `far` from there on
+    /// From the eye to `centre` [m^2]: DrawOrder::far from there on.
+    float far_squared = std::numeric_limits<float>::infinity();
 };
 
 /// Where a draw stands in a frame.

@@ -40,7 +40,8 @@ inline constexpr std::uint64_t kMostPictureBytes = 1u << 29;
 /// The size of a picture as its header has it. Not 2:1, empty or over kMostPictureWidth: Error(input).
 void expect_equirectangular(long long width, long long height, const std::string& file);
 
-/// Decodes by the ending of `file`. NaN, infinite, negative and absurd values are mended, with one notice.
+/// Decodes by the ending of `file`. NaN, infinite, negative and absurd values are mended, with one notice, which leaves the
+/// name of the file to the caller.
 [[nodiscard]] Equirectangular decode_equirectangular(std::string_view bytes, const std::filesystem::path& file,
                                                      std::vector<std::string>& notices);
 

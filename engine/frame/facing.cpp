@@ -134,6 +134,7 @@ glm::dvec4 eye_of(const glm::mat4& clip_from_local) {
 FacingGroups order_by_facing(std::span<const glm::vec3> positions, std::vector<std::uint32_t>& indices) {
     const std::size_t triangles = indices.size() / 3;
     if (triangles < kFacingTriangles) return {};
+    if (std::ranges::any_of(indices, [&](std::uint32_t index) { return index >= positions.size(); })) return {};
     glm::vec3 low(std::numeric_limits<float>::infinity()), high = -low;
     for (const glm::vec3& position : positions) {
         low = glm::min(low, position);

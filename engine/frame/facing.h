@@ -50,6 +50,7 @@ struct TriangleRange {
 /// their order. Leaves `indices` alone, and returns no groups, where they are few, and where neighbours would be torn
 /// apart: where fewer vertices would be found in a cache of the last 32. That is most of what a modeller has ordered
 /// well, and slower to draw in part than well ordered as a whole.
+/// An index without a position is the device's to judge: the order stays then too.
 [[nodiscard]] FacingGroups order_by_facing(std::span<const glm::vec3> positions, std::vector<std::uint32_t>& indices);
 
 /// Which triangles may show their fronts (counter-clockwise in the window) where `clip_from_local` takes them, in

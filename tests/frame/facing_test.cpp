@@ -212,6 +212,9 @@ TEST(Facing, FewTrianglesStayAsTheyAre) {
     shape.indices.resize(3 * (kFacingTriangles - 1));
     EXPECT_TRUE(stays(shape));
     EXPECT_TRUE(stays({}));
+    shape = ball();
+    shape.indices[1000] = static_cast<std::uint32_t>(shape.positions.size());
+    EXPECT_TRUE(stays(shape)) << "an index without a position";
 }
 
 TEST(Facing, AnOrderThatSharesVerticesStays) {
